@@ -1,0 +1,3 @@
+file(REMOVE_RECURSE ${PREFIX} ${PREFIX}-first)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX}-first COMMAND_ERROR_IS_FATAL ANY)
+file(RENAME ${PREFIX}-first ${PREFIX})
