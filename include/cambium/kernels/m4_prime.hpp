@@ -6,7 +6,7 @@
 
 namespace cambium {
 
-/// M4': the cubic spline M4 extrapolated once, (3 M4 + x dM4/dx) / 2; equals Lambda_{2,1} (Monaghan 1985).
+/// M4': the cubic B-spline M4 extrapolated once, (3 M4 + x dM4/dx) / 2; equals Lambda_{2,1} (Monaghan 1985).
 struct M4Prime {
   static constexpr int support = 4;
   static constexpr int moments = 2;

@@ -24,51 +24,53 @@ struct TapTable {
   double value[tap_degree<K>() < 0 ? 1 : tap_degree<K>() + 1][K::support]{};
 };
 
-__extension__ using WideInteger = __int128;
-
-/// Exact binomial expansion of piece(|g + b|), b = (support - 1)/2 - k = twice_b / 2, in integers.
+/// Tap k is the piece under g + b, b = (support - 1)/2 - k, whose middle is |b|: the piece's centred coefficients, with
+/// the sign of odd powers turned left of zero.
 template <class K>
-constexpr void expand_piece(int k, TapTable<K>& table) {
+constexpr void copy_piece(int k, TapTable<K>& table) {
   constexpr int support = K::support;
-  constexpr int degree = tap_degree<K>();
   const int twice_b = support - 1 - 2 * k;
-  const int sign = twice_b < 0 ? -1 : 1;
-  const auto& piece = K::pieces.piece[(sign * twice_b + (support % 2 == 0 ? 0 : 1)) / 2];
-  for (int m = 0; m <= degree; ++m) {
-    WideInteger sum = 0;  // sum_j c_j sign^j C(j, m) twice_b^(j - m) 2^(degree - j + m)
-    for (int j = m; j <= degree; ++j) {
-      WideInteger term = piece.numerator[j] * (j % 2 == 1 ? sign : 1);
-      for (int i = 0; i < m; ++i) term = term * (j - i) / (i + 1);
-      for (int i = 0; i < j - m; ++i) term *= twice_b;
-      for (int i = 0; i < degree - j; ++i) term *= 2;
-      sum += term;
-    }
-    double scale = static_cast<double>(piece.denominator);
-    for (int i = 0; i < degree - m; ++i) scale *= 2.0;
-    table.value[m][k] = static_cast<double>(sum) / scale;
+  const int i = (twice_b < 0 ? -twice_b : twice_b) / 2;
+  for (int m = 0; m <= tap_degree<K>(); ++m) {
+    table.value[m][k] = K::pieces.centred(i, m) * (twice_b < 0 && m % 2 == 1 ? -1 : 1);
   }
 }
 
-/// Newton interpolation of value() at degree + 1 equidistant points inside the piece, turned into powers of g.
+/// value() in the widest type it takes, so that the fit below loses nothing if it is a template.
+template <class K>
+constexpr long double widest_value(double x) {
+  if constexpr (requires { K::template value<long double>(0.5L); }) {
+    return K::template value<long double>(x);
+  } else {
+    return static_cast<long double>(K::value(x));
+  }
+}
+
+/// Newton interpolation of value() at degree + 1 points inside the piece, turned into powers of g. The points crowd
+/// towards both ends much as Chebyshev's do (s (3 - s^2) / 2 stands for sin(pi s / 2)).
 template <class K>
 constexpr void fit_piece(int k, TapTable<K>& table) {
   constexpr int support = K::support;
   constexpr int n = tap_degree<K>() + 1;
   double point[n]{};
-  double divided[n]{};
+  long double divided[n]{};
   for (int i = 0; i < n; ++i) {
-    point[i] = (i + 0.5) / n - 0.5;
-    divided[i] = static_cast<double>(K::value(point[i] + 0.5 * (support - 1) - k));
+    const double s = (2 * i + 1.0) / n - 1.0;
+    const double b = 0.5 * (support - 1) - k;
+    point[i] = (b + 0.25 * s * (3.0 - s * s)) - b;  // so that point + b is exact
+    divided[i] = widest_value<K>(point[i] + b);
   }
   for (int order = 1; order < n; ++order) {
-    for (int i = n - 1; i >= order; --i) divided[i] = (divided[i] - divided[i - 1]) / (point[i] - point[i - order]);
+    for (int i = n - 1; i >= order; --i) {
+      divided[i] = (divided[i] - divided[i - 1]) / (static_cast<long double>(point[i]) - point[i - order]);
+    }
   }
-  double power[n]{};
+  long double power[n]{};
   for (int i = n - 1; i >= 0; --i) {
-    for (int j = n - 1; j >= 0; --j) power[j] = (j > 0 ? power[j - 1] : 0.0) - point[i] * power[j];
+    for (int j = n - 1; j >= 0; --j) power[j] = (j > 0 ? power[j - 1] : 0.0L) - point[i] * power[j];
     power[0] += divided[i];
   }
-  for (int j = 0; j < n; ++j) table.value[j][k] = power[j];
+  for (int j = 0; j < n; ++j) table.value[j][k] = static_cast<double>(power[j]);
 }
 
 template <class K>
@@ -76,7 +78,7 @@ consteval TapTable<K> tabulate_taps() {
   TapTable<K> table{};
   for (int k = 0; k < K::support; ++k) {
     if constexpr (requires { K::pieces; }) {
-      expand_piece<K>(k, table);
+      copy_piece<K>(k, table);
     } else if constexpr (requires { K::degree; }) {
       fit_piece<K>(k, table);
     }
