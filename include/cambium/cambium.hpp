@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// \file  The whole library.
+#include <cambium/core.hpp>
+#include <cambium/interpolation.hpp>
+#include <cambium/kernels.hpp>
+#include <cambium/operators.hpp>
+#include <cambium/parallel.hpp>
+#include <cambium/particles.hpp>
+#include <cambium/time.hpp>
