@@ -18,10 +18,10 @@ inline constexpr bool never = false;
 
 template <int P, int R>
 struct LambdaKernel {
+  using type = Lambda21;  // a kernel, so that the message below is not followed by others
   static_assert(never<P, R>,
                 "cambium: there is no kernel Lambda<p, r> with these numbers: choose Lambda<2, 1>, <2, 2>, <4, 2>, "
                 "<4, 4>, <6, 4> or <8, 4> (the construction needs p even and p <= 2 r + 1)");
-  using type = Lambda21;  // a kernel, so that the message above is not followed by others
 };
 template <>
 struct LambdaKernel<2, 1> {

@@ -31,33 +31,27 @@ concept Mollifier = (MollifierIn<Z, 1> || MollifierIn<Z, 2> || MollifierIn<Z, 3>
 
 namespace detail {
 
+/// True if radial<D> is a constant expression, or Z is not made for D dimensions.
 template <class Z, int D>
-concept ConstantMollifier = requires {
-  typename std::bool_constant<(Z::template radial<D>(0.5) == Z::template radial<D>(0.5))>;
-};
-
-template <class Z, int D>
-consteval bool mollifier_moments_hold() {
-  constexpr int count = Z::order < 2 ? 1 : (Z::order + 1) / 2;
-  const auto found = radial_moments<D, count>([](double rho2) { return Z::template radial<D>(rho2); }, Z::cutoff);
-  for (int m = 0; m < count; ++m) {
-    if (!nearly(found.moment[m], m == 0 ? 1.0 : 0.0)) return false;
+consteval bool mollifier_is_constant() {
+  if constexpr (MollifierIn<Z, D>) {
+    return requires { typename std::bool_constant<(Z::template radial<D>(0.5) == Z::template radial<D>(0.5))>; };
+  } else {
+    return true;
   }
-  return true;
 }
 
+/// True if the moments are those of the declared order, or Z is not made for D dimensions.
 template <class Z, int D>
-constexpr void check_mollifier_in() {
+consteval bool mollifier_moments_hold() {
   if constexpr (MollifierIn<Z, D>) {
-    static_assert(ConstantMollifier<Z, D>,
-                  "cambium: mollifier radial<D>(rho2) must be a constant expression; cambium/kernels/constant_math.hpp "
-                  "has an exponential that is");
-    if constexpr (ConstantMollifier<Z, D>) {
-      static_assert(mollifier_moments_hold<Z, D>(),
-                    "cambium: mollifier does not have the order it declares: its integral must be 1 and the moments of "
-                    "degree 1, ..., order - 1 must vanish");
+    constexpr int count = (Z::order + 1) / 2;
+    const auto found = radial_moments<D, count>([](double rho2) { return Z::template radial<D>(rho2); }, Z::cutoff);
+    for (int m = 0; m < count; ++m) {
+      if (!nearly(found.moment[m], m == 0 ? 1.0 : 0.0)) return false;
     }
   }
+  return true;
 }
 
 }  // namespace detail
@@ -69,11 +63,19 @@ constexpr void check_mollifier() {
                 "cambium: a mollifier needs static constexpr int order, double cutoff and radial<D>(rho2); see "
                 "docs/concepts/Mollifier.md");
   if constexpr (Mollifier<Z>) {
-    static_assert(Z::order >= 1 && Z::order <= 8, "cambium: mollifier order must be between 1 and 8");
-    static_assert(Z::cutoff > 0.0, "cambium: mollifier cutoff must be a positive radius, in units of eps");
-    detail::check_mollifier_in<Z, 1>();
-    detail::check_mollifier_in<Z, 2>();
-    detail::check_mollifier_in<Z, 3>();
+    constexpr bool sane = Z::order >= 1 && Z::order <= 8 && Z::cutoff > 0.0;
+    static_assert(sane, "cambium: mollifier order must be between 1 and 8, its cutoff positive (in units of eps)");
+    constexpr bool constant = detail::mollifier_is_constant<Z, 1>() && detail::mollifier_is_constant<Z, 2>() &&
+                              detail::mollifier_is_constant<Z, 3>();
+    static_assert(constant,
+                  "cambium: mollifier radial<D>(rho2) must be a constant expression; cambium/kernels/constant_math.hpp "
+                  "has an exponential that is");
+    if constexpr (sane && constant) {
+      static_assert(detail::mollifier_moments_hold<Z, 1>() && detail::mollifier_moments_hold<Z, 2>() &&
+                        detail::mollifier_moments_hold<Z, 3>(),
+                    "cambium: mollifier does not have the order it declares: its integral must be 1 and the moments of "
+                    "degree 1, ..., order - 1 must vanish");
+    }
   }
 }
 

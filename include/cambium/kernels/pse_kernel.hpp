@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <type_traits>
 
 #include <cambium/core/error.hpp>
@@ -40,20 +41,9 @@ concept PSEKernel = (PSEKernelIn<K, 1> || PSEKernelIn<K, 2> || PSEKernelIn<K, 3>
 
 namespace detail {
 
-template <class K, int D>
-concept ConstantPSEKernel = requires {
-  typename std::bool_constant<(K::template laplacian<D>(0.5) == K::template laplacian<D>(0.5))>;
-  typename std::bool_constant<(K::template gradient<D>(0.5) == K::template gradient<D>(0.5))>;
-};
-
 /// Moments 1, rho^2, ..., rho^(2 m) with 2 m <= max(order, 2); higher ones need not exist.
 template <class K>
 inline constexpr int pse_moment_count = (K::order < 2 ? 2 : K::order) / 2 + 1;
-
-template <class K, int D>
-consteval auto laplacian_moments() {
-  return radial_moments<D, pse_moment_count<K>>([](double rho2) { return K::template laplacian<D>(rho2); }, K::cutoff);
-}
 
 /// True if moments rho^4, rho^6, ... of f vanish.
 template <class Moments>
@@ -64,55 +54,67 @@ constexpr bool higher_moments_vanish(const Moments& moments) {
   return true;
 }
 
-/// integral of x_i eta_i = -1, and of x_i |x|^2 eta_i, ... = 0 as far as the order demands.
-template <class K, int D>
-consteval bool gradient_moments_hold() {
-  const auto found =
-      radial_moments<D, pse_moment_count<K>>([](double rho2) { return K::template gradient<D>(rho2); }, K::cutoff);
-  return nearly(found.moment[1] / D, -1.0) && higher_moments_vanish(found);
-}
+/// The first statement of a PSE kernel that does not hold.
+enum class PSEFault { none, not_constant, scale, order, gradient, zeroth_moment, cutoff };
 
 template <class K, int D>
-constexpr void check_pse_kernel_in() {
-  if constexpr (PSEKernelIn<K, D>) {
-    static_assert(ConstantPSEKernel<K, D>,
-                  "cambium: PSE kernel laplacian<D>(rho2) and gradient<D>(rho2) must be constant expressions; "
-                  "cambium/kernels/constant_math.hpp has an exponential that is");
-    if constexpr (ConstantPSEKernel<K, D>) {
-      constexpr auto moments = laplacian_moments<K, D>();
-      static_assert(nearly(moments.moment[1] / D, 2.0),
-                    "cambium: PSE kernel has the wrong scale: the integral of x_i^2 laplacian must be 2");
-      static_assert(higher_moments_vanish(moments),
-                    "cambium: PSE kernel does not have the order it declares: the moments of laplacian of degree "
-                    "3, ..., order + 1 must vanish");
-      static_assert(
-          gradient_moments_hold<K, D>(),
-          "cambium: PSE kernel gradient does not have the order it declares: the integral of x_i eta_i must be "
-          "-1 and the other moments of degree 0, ..., order must vanish");
-      static_assert(nearly(moments.moment[0], K::template zeroth_moment<D>),
-                    "cambium: PSE kernel zeroth_moment is not the integral of laplacian");
-      static_assert(moments.outside <= 2e-3 * D,
-                    "cambium: PSE kernel cutoff is too small: more than 0.1 % of the second moment lies outside");
-    }
+constexpr PSEFault pse_fault_in() {
+  if constexpr (!PSEKernelIn<K, D>) {
+    return PSEFault::none;
+  } else if constexpr (!requires {
+                         typename std::bool_constant<(K::template laplacian<D>(0.5) < 1e300)>;
+                         typename std::bool_constant<(K::template gradient<D>(0.5) < 1e300)>;
+                       }) {
+    return PSEFault::not_constant;
+  } else {
+    constexpr int count = pse_moment_count<K>;
+    const auto eta = radial_moments<D, count>([](double rho2) { return K::template laplacian<D>(rho2); }, K::cutoff);
+    if (!nearly(eta.moment[1] / D, 2.0)) return PSEFault::scale;
+    if (!higher_moments_vanish(eta)) return PSEFault::order;
+    const auto g = radial_moments<D, count>([](double rho2) { return K::template gradient<D>(rho2); }, K::cutoff);
+    if (!nearly(g.moment[1] / D, -1.0) || !higher_moments_vanish(g)) return PSEFault::gradient;
+    if (!nearly(eta.moment[0], K::template zeroth_moment<D>)) return PSEFault::zeroth_moment;
+    return eta.outside <= 2e-3 * D ? PSEFault::none : PSEFault::cutoff;
   }
+}
+
+template <class K>
+constexpr PSEFault pse_fault() {
+  const PSEFault fault[] = {pse_fault_in<K, 1>(), pse_fault_in<K, 2>(), pse_fault_in<K, 3>()};
+  return fault[0] != PSEFault::none ? fault[0] : fault[1] != PSEFault::none ? fault[1] : fault[2];
 }
 
 }  // namespace detail
 
-/// Checks at compile time what a PSE kernel declares of itself, one readable message for each statement.
+/// Checks at compile time what a PSE kernel declares of itself; the message names the first statement that fails.
 template <class K>
 constexpr void check_pse_kernel() {
+  using detail::PSEFault;
   static_assert(PSEKernel<K>,
                 "cambium: a PSE kernel needs static constexpr int order, double cutoff, double largest_spacing, "
                 "laplacian<D>(rho2), gradient<D>(rho2) and zeroth_moment<D>; see docs/concepts/PSEKernel.md");
   if constexpr (PSEKernel<K>) {
-    static_assert(K::order >= 1 && K::order <= 8, "cambium: PSE kernel order must be between 1 and 8");
-    static_assert(K::cutoff > 0.0 && K::largest_spacing > 0.0,
-                  "cambium: PSE kernel cutoff and largest_spacing must be positive, in units of eps");
-    if constexpr (K::order >= 1 && K::order <= 8) {
-      detail::check_pse_kernel_in<K, 1>();
-      detail::check_pse_kernel_in<K, 2>();
-      detail::check_pse_kernel_in<K, 3>();
+    constexpr bool sane = K::order >= 1 && K::order <= 8 && K::cutoff > 0.0 && K::largest_spacing > 0.0;
+    static_assert(sane,
+                  "cambium: PSE kernel order must be between 1 and 8, cutoff and largest_spacing positive (in units of "
+                  "eps)");
+    if constexpr (sane) {
+      constexpr PSEFault fault = detail::pse_fault<K>();
+      static_assert(fault != PSEFault::not_constant,
+                    "cambium: PSE kernel laplacian<D>(rho2) and gradient<D>(rho2) must be constant expressions; "
+                    "cambium/kernels/constant_math.hpp has an exponential that is");
+      static_assert(fault != PSEFault::scale,
+                    "cambium: PSE kernel has the wrong scale: the integral of x_i^2 laplacian must be 2");
+      static_assert(fault != PSEFault::order,
+                    "cambium: PSE kernel does not have the order it declares: the moments of laplacian of degree "
+                    "3, ..., order + 1 must vanish");
+      static_assert(fault != PSEFault::gradient,
+                    "cambium: PSE kernel gradient does not have the order it declares: the integral of x_i eta_i must "
+                    "be -1 and the other moments of degree 0, ..., order must vanish");
+      static_assert(fault != PSEFault::zeroth_moment,
+                    "cambium: PSE kernel zeroth_moment is not the integral of laplacian");
+      static_assert(fault != PSEFault::cutoff,
+                    "cambium: PSE kernel cutoff is too small: more than 0.1 % of the second moment lies outside");
     }
   }
 }
