@@ -32,13 +32,19 @@ struct Domain {
     return result;
   }
 
+  /// Coordinate along `axis` brought into [lo, hi), as if the axis were periodic.
+  double wrap(int axis, double x) const {
+    const double lo = box.lo[axis];
+    const double period = box.hi[axis] - lo;
+    x -= period * std::floor((x - lo) / period);
+    // Round-off can leave the result an ulp below lo or on hi: both are lo.
+    return x < lo || x >= box.hi[axis] ? lo : x;
+  }
+
   /// Position brought into [lo, hi) along periodic axes, unchanged along the others.
   Vec<D> wrap(Vec<D> x) const {
     for (int d = 0; d < D; ++d) {
-      const double period = box.hi[d] - box.lo[d];
-      if (!periodic[d]) continue;
-      x[d] -= period * std::floor((x[d] - box.lo[d]) / period);
-      if (x[d] >= box.hi[d]) x[d] = box.lo[d];
+      if (periodic[d]) x[d] = wrap(d, x[d]);
     }
     return x;
   }
