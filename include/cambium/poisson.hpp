@@ -1,0 +1,11 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// \dir poisson  Poisson's equation on lattices; programs that include it link with FFTW.
+#include <cambium/poisson/difference_symbol.hpp>
+#include <cambium/poisson/fourth_order.hpp>
+#include <cambium/poisson/periodic.hpp>
+#include <cambium/poisson/periodic_transform.hpp>
+#include <cambium/poisson/second_order.hpp>
+#include <cambium/poisson/spectral.hpp>
