@@ -40,7 +40,9 @@ class PeriodicPoisson {
   PeriodicPoisson(const Lattice<D>& lattice, const Params& params, const E& execution = {})
       : lattice_(lattice), params_(params), execution_(execution), transform_(lattice, params.planning) {
     check_difference_symbol<Symbol>();
-    for (int d = 0; d < D; ++d) tabulate(d);
+    if constexpr (DifferenceSymbol<Symbol>) {
+      for (int d = 0; d < D; ++d) tabulate(d);
+    }
   }
 
   const Lattice<D>& lattice() const { return lattice_; }

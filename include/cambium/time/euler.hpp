@@ -25,12 +25,13 @@ class Euler {
   ///         the state is then unchanged, and so it is if rhs throws
   template <class F>
   void step(StateArgument<S> state, double t, double dt, F&& rhs) {
-    detail::check_rhs<S, F>();
-    detail::require_step(t, dt);
-    fit(state);
-    auto&& k = derivative_.view();
-    rhs(StateTraits<S>::const_view(state), t, k);
-    detail::combine<S>(execution_, state, {1.0, dt}, state, k);
+    if constexpr (detail::check_rhs<S, F>()) {
+      detail::require_step(t, dt);
+      fit(state);
+      auto&& k = derivative_.view();
+      rhs(StateTraits<S>::const_view(state), t, k);
+      detail::combine<S>(execution_, state, {1.0, dt}, state, k);
+    }
   }
 
  private:

@@ -25,21 +25,22 @@ class RK4 {
   ///         the state is then unchanged, and so it is if rhs throws
   template <class F>
   void step(StateArgument<S> state, double t, double dt, F&& rhs) {
-    detail::check_rhs<S, F>();
-    detail::require_step(t, dt);
-    fit(state);
-    auto&& y = stage_.view();
-    auto&& k = derivative_.view();
-    auto&& sum = sum_.view();
-    rhs(StateTraits<S>::const_view(state), t, sum);
-    detail::combine<S>(execution_, y, {1.0, 0.5 * dt}, state, sum);
-    for (const double reach : {0.5 * dt, dt}) {
-      rhs(StateTraits<S>::const_view(y), t + 0.5 * dt, k);
-      detail::combine<S>(execution_, sum, {1.0, 2.0}, sum, k);
-      detail::combine<S>(execution_, y, {1.0, reach}, state, k);
+    if constexpr (detail::check_rhs<S, F>()) {
+      detail::require_step(t, dt);
+      fit(state);
+      auto&& y = stage_.view();
+      auto&& k = derivative_.view();
+      auto&& sum = sum_.view();
+      rhs(StateTraits<S>::const_view(state), t, sum);
+      detail::combine<S>(execution_, y, {1.0, 0.5 * dt}, state, sum);
+      for (const double reach : {0.5 * dt, dt}) {
+        rhs(StateTraits<S>::const_view(y), t + 0.5 * dt, k);
+        detail::combine<S>(execution_, sum, {1.0, 2.0}, sum, k);
+        detail::combine<S>(execution_, y, {1.0, reach}, state, k);
+      }
+      rhs(StateTraits<S>::const_view(y), t + dt, k);
+      detail::combine<S>(execution_, state, {1.0, dt / 6.0, dt / 6.0}, state, sum, k);
     }
-    rhs(StateTraits<S>::const_view(y), t + dt, k);
-    detail::combine<S>(execution_, state, {1.0, dt / 6.0, dt / 6.0}, state, sum, k);
   }
 
  private:

@@ -13,7 +13,10 @@ namespace cambium::detail {
 
 /// Memory of the shape of a state, made once and anew only when the shape of the state changes.
 template <class S>
-class StageBuffer {
+class StageBuffer {};
+
+template <State S>
+class StageBuffer<S> {
  public:
   void fit(const S& state) {
     if (!stage_ || !StateTraits<S>::same_shape(*stage_, state)) stage_.emplace(StateTraits<S>::make_stage(state));
@@ -70,14 +73,20 @@ inline void require_step(double t, double dt) {
   if (!std::isfinite(t)) throw ValueError(detail::message("time is ", t, ": it must be finite"));
 }
 
-/// Checks at compile time that `rhs` can be called as rhs(state, t, derivative).
+/// Checks at compile time that `rhs` can be called as rhs(state, t, derivative); true if it can, and S is a state.
 template <class S, class F>
-constexpr void check_rhs() {
-  using View = decltype(StateTraits<S>::view(std::declval<typename StateTraits<S>::Stage&>()));
-  using ConstView = decltype(StateTraits<S>::const_view(std::declval<const S&>()));
-  static_assert(std::invocable<F&, ConstView, double, View>,
-                "cambium: a right-hand side is callable as rhs(state, t, derivative): it reads the state (by const "
-                "reference or const view) and writes every entry of the derivative; see docs/concepts/State.md");
+consteval bool check_rhs() {
+  if constexpr (State<S>) {
+    using View = decltype(StateTraits<S>::view(std::declval<typename StateTraits<S>::Stage&>()));
+    using ConstView = decltype(StateTraits<S>::const_view(std::declval<const S&>()));
+    constexpr bool callable = std::invocable<F&, ConstView, double, View>;
+    static_assert(callable,
+                  "cambium: a right-hand side is callable as rhs(state, t, derivative): it reads the state (by const "
+                  "reference or const view) and writes every entry of the derivative; see docs/concepts/State.md");
+    return callable;
+  } else {
+    return false;
+  }
 }
 
 }  // namespace cambium::detail

@@ -23,7 +23,7 @@ namespace cambium {
 ///   same_shape(stage, state)     true if `stage` needs no new memory to hold `state`
 ///   arrays(x)                    std::tuple or std::array of the std::span that hold all numbers of a state or view
 template <class S>
-struct StateTraits;
+struct StateTraits {};
 
 namespace detail {
 
@@ -81,9 +81,23 @@ concept State = requires(S& state, const S& constant, typename StateTraits<S>::S
   StateTraits<S>::arrays(constant);
 };
 
+namespace detail {
+
+/// False also for what is no state, so that check_state() has the first word.
+template <class S>
+consteval bool is_view() {
+  if constexpr (State<S>) {
+    return StateTraits<S>::is_view;
+  } else {
+    return false;
+  }
+}
+
+}  // namespace detail
+
 /// How a state is handed to step(): views by value or temporary (they refer to the data), owners by reference.
 template <class S>
-using StateArgument = std::conditional_t<StateTraits<S>::is_view, const S&, S&>;
+using StateArgument = std::conditional_t<detail::is_view<S>(), const S&, S&>;
 
 /// Checks at compile time that S can be stepped in time, one readable message for each requirement.
 template <class S>

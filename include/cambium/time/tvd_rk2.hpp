@@ -26,15 +26,16 @@ class TVDRK2 {
   ///         the state is then unchanged, and so it is if rhs throws
   template <class F>
   void step(StateArgument<S> state, double t, double dt, F&& rhs) {
-    detail::check_rhs<S, F>();
-    detail::require_step(t, dt);
-    fit(state);
-    auto&& y = stage_.view();
-    auto&& k = derivative_.view();
-    rhs(StateTraits<S>::const_view(state), t, k);
-    detail::combine<S>(execution_, y, {1.0, dt}, state, k);
-    rhs(StateTraits<S>::const_view(y), t + dt, k);
-    detail::combine<S>(execution_, state, {0.5, 0.5, 0.5 * dt}, state, y, k);
+    if constexpr (detail::check_rhs<S, F>()) {
+      detail::require_step(t, dt);
+      fit(state);
+      auto&& y = stage_.view();
+      auto&& k = derivative_.view();
+      rhs(StateTraits<S>::const_view(state), t, k);
+      detail::combine<S>(execution_, y, {1.0, dt}, state, k);
+      rhs(StateTraits<S>::const_view(y), t + dt, k);
+      detail::combine<S>(execution_, state, {0.5, 0.5, 0.5 * dt}, state, y, k);
+    }
   }
 
  private:

@@ -26,17 +26,18 @@ class TVDRK3 {
   ///         the state is then unchanged, and so it is if rhs throws
   template <class F>
   void step(StateArgument<S> state, double t, double dt, F&& rhs) {
-    detail::check_rhs<S, F>();
-    detail::require_step(t, dt);
-    fit(state);
-    auto&& y = stage_.view();
-    auto&& k = derivative_.view();
-    rhs(StateTraits<S>::const_view(state), t, k);
-    detail::combine<S>(execution_, y, {1.0, dt}, state, k);
-    rhs(StateTraits<S>::const_view(y), t + dt, k);
-    detail::combine<S>(execution_, y, {3.0 / 4.0, 1.0 / 4.0, dt / 4.0}, state, y, k);
-    rhs(StateTraits<S>::const_view(y), t + 0.5 * dt, k);
-    detail::combine<S>(execution_, state, {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0 * dt}, state, y, k);
+    if constexpr (detail::check_rhs<S, F>()) {
+      detail::require_step(t, dt);
+      fit(state);
+      auto&& y = stage_.view();
+      auto&& k = derivative_.view();
+      rhs(StateTraits<S>::const_view(state), t, k);
+      detail::combine<S>(execution_, y, {1.0, dt}, state, k);
+      rhs(StateTraits<S>::const_view(y), t + dt, k);
+      detail::combine<S>(execution_, y, {3.0 / 4.0, 1.0 / 4.0, dt / 4.0}, state, y, k);
+      rhs(StateTraits<S>::const_view(y), t + 0.5 * dt, k);
+      detail::combine<S>(execution_, state, {1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0 * dt}, state, y, k);
+    }
   }
 
  private:
