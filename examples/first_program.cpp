@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <cambium/cambium.hpp>
+
+using namespace cambium;
+
+int main() {
+  const auto lattice = Lattice<2>::periodic_box(Box<2>::cube(), 64);
+  const auto bump = [](const Vec<2>& x) { return std::exp(-100.0 * dot(x - Vec<2>{0.5, 0.7}, x - Vec<2>{0.5, 0.7})); };
+  auto density = sample(lattice, bump);
+
+  Particles<2> particles(lattice.size());
+  const auto strength = particles.add<double>("strength");
+  RK4<Columns<2, double>> stepper;
+  for (int step = 0; step < 64; ++step) {  // one turn about the centre of the box
+    for (std::size_t p = 0; p < lattice.size(); ++p) {
+      particles.positions().set(p, lattice.position(lattice.node(p)));
+      particles[strength][p] = density[p];
+    }
+    stepper.step(particles.positions(), 0.0, 2.0 * std::numbers::pi / 64, [](auto x, double, auto velocity) {
+      for (std::size_t p = 0; p < x.size(); ++p) velocity.set(p, {0.5 - x[p][1], x[p][0] - 0.5});
+    });
+    plain::p2m<M6>(std::as_const(particles).positions(), Columns<1, const double>(particles[strength]), density);
+  }
+
+  double error = 0.0;
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    error = std::max(error, std::abs(density[i] - bump(lattice.position(lattice.node(i)))));
+  }
+  std::printf("largest error after one turn: %.1e\n", error);
+  return error < 1e-3 ? 0 : 1;
+}
