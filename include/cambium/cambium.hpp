@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// \file  The whole library.
+/// \file cambium.hpp  The whole library.
 #include <cambium/core.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/kernels.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>
 #include <cambium/particles.hpp>
+#include <cambium/poisson.hpp>
 #include <cambium/time.hpp>
