@@ -5,6 +5,7 @@
 /// \file cambium.hpp  The whole library.
 #include <cambium/core.hpp>
 #include <cambium/interpolation.hpp>
+#include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>

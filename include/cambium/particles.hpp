@@ -3,4 +3,8 @@
 #pragma once
 
 /// \dir particles  Particles as a structure of arrays, their order and their neighbours.
+#include <cambium/particles/cell_grid.hpp>
+#include <cambium/particles/cell_order.hpp>
+#include <cambium/particles/neighbours.hpp>
 #include <cambium/particles/particles.hpp>
+#include <cambium/particles/validation.hpp>
