@@ -3,5 +3,6 @@
 #pragma once
 
 /// \dir parallel  Loops over nodes, blocks and particles; serial or threaded, with the same bits.
+#include <cambium/parallel/compensated_sum.hpp>
 #include <cambium/parallel/execution.hpp>
 #include <cambium/parallel/nodes.hpp>

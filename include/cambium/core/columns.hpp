@@ -62,4 +62,19 @@ class Columns {
   std::size_t size_ = 0;
 };
 
+/// Columns for reading: Columns as they are, an array or span of scalars as one column.
+template <int C, class T>
+Columns<C, const std::remove_const_t<T>> read_columns(const Columns<C, T>& columns) {
+  return columns;
+}
+template <class Array>
+auto read_columns(const Array& array) requires requires {
+  std::span(array);
+}
+{
+  const auto span = std::span(array);
+  using Scalar = std::remove_const_t<typename decltype(span)::element_type>;
+  return Columns<1, const Scalar>(std::span<const Scalar>(span));
+}
+
 }  // namespace cambium

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include <cambium/particles/cell_order.hpp>
 
 namespace cambium {
@@ -63,11 +65,7 @@ class Neighbours {
   /// deterministic. \throws PositionError if `at` is not finite
   template <class F>
   void for_each(const Vec<D>& at, F&& f) const {
-    for (int d = 0; d < D; ++d) {
-      if (!std::isfinite(at[d])) {
-        throw PositionError(detail::message("neighbours of the point ", at, ": component ", d, " is not finite"));
-      }
-    }
+    require_finite_point(at);
     search(domain().wrap(at), 0, [&](std::size_t s, const Vec<D>& r) { f(std::size_t{order()[s]}, r); });
   }
 
@@ -90,7 +88,43 @@ class Neighbours {
     }
   }
 
+  /// A particle and the way to it.
+  struct Found {
+    std::size_t particle;
+    Vec<D> r;
+  };
+  /// The particle closest to `at`, however far, and r = x_q - at; the one of the lowest number if several are; none if
+  /// there are no particles. Particle `excluded` does not count, so that nearest(position(p), p) is p's neighbour.
+  /// \throws PositionError if `at` is not finite
+  std::optional<Found> nearest(const Vec<D>& at, std::size_t excluded = no_particle) const {
+    require_finite_point(at);
+    const Vec<D> x = domain().wrap(at);
+    std::optional<Found> best;
+    double farthest = slack_;
+    for (int d = 0; d < D; ++d) farthest += domain().box.extent()[d] + std::abs(x[d] - domain().box.centre()[d]);
+    for (double reach = radius_; size() > 0; reach *= 2.0) {
+      double least = reach * reach;
+      search_within(x, 0, reach, [&](std::size_t s, const Vec<D>& r) {
+        const std::size_t q = order()[s];
+        const double square = dot(r, r);
+        if (q == excluded || square > least || (square == least && best && q > best->particle)) return;
+        least = square;
+        best = Found{q, r};
+      });
+      if (best || reach > farthest) break;
+    }
+    return best;
+  }
+  static constexpr std::size_t no_particle = std::numeric_limits<std::size_t>::max();
+
  private:
+  static void require_finite_point(const Vec<D>& at) {
+    for (int d = 0; d < D; ++d) {
+      if (std::isfinite(at[d])) continue;
+      throw PositionError(detail::message("neighbours of the point ", at, ": component ", d, " is not finite"));
+    }
+  }
+
   static Vec<D> in_double(const Vec<D, T>& x) {
     Vec<D> result;
     for (int d = 0; d < D; ++d) result[d] = static_cast<double>(x[d]);
@@ -150,9 +184,16 @@ class Neighbours {
   /// periodic axes.
   template <class F>
   void search(const Vec<D>& at, std::size_t first, F&& f) const {
-    if (size() == 0) return;
-    const double reach = radius_ + slack_;
-    visit<D - 1>(at, first, 0, Vec<D>{}, reach * reach, f);
+    const double square = radius_ * radius_;
+    search_within(at, first, radius_, [&](std::size_t s, const Vec<D>& r) {
+      if (dot(r, r) <= square && is_nearest_image(at, s, r)) f(s, r);
+    });
+  }
+
+  /// Calls f(s, r) for slots s >= first: all within `reach`, some beyond, a slot once for each image that may be.
+  template <class F>
+  void search_within(const Vec<D>& at, std::size_t first, double reach, F&& f) const {
+    if (size() > 0) visit<D - 1>(at, first, 0, Vec<D>{}, (reach + slack_) * (reach + slack_), f);
   }
 
   /// Goes through the cells along axis A that come within sqrt(left) of `at` along that axis; `row` numbers the cells
@@ -197,21 +238,18 @@ class Neighbours {
 
   template <class F>
   void scan(const Vec<D>& at, std::size_t begin, std::size_t end, const Vec<D>& shift, F& f) const {
-    const double square = radius_ * radius_;
     for (std::size_t s = begin; s < end; ++s) {
       Vec<D> r;
       for (int d = 0; d < D; ++d) r[d] = position_[d][s] - at[d] + shift[d];
-      if (dot(r, r) <= square && is_nearest(at, s, shift)) f(s, r);
+      f(s, r);
     }
   }
 
   /// With a radius of half a period a particle can be within reach through two images: the one of Domain::difference
   /// counts.
-  bool is_nearest(const Vec<D>& at, std::size_t s, const Vec<D>& shift) const {
+  bool is_nearest_image(const Vec<D>& at, std::size_t s, const Vec<D>& r) const {
     for (int d = 0; d < D; ++d) {
-      if (!ambiguous_[d]) continue;
-      const double period = domain().box.hi[d] - domain().box.lo[d];
-      if (shift[d] != -period * std::round((position_[d][s] - at[d]) / period)) return false;
+      if (ambiguous_[d] && r[d] != domain().difference(at, at_slot(s))[d]) return false;
     }
     return true;
   }

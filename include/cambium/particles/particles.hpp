@@ -76,6 +76,50 @@ class Particles {
     return {entries_.size() - 1};
   }
 
+  /// Adds `count` particles after the present ones, as resize() does. \return the number of the first of them
+  std::size_t append(std::size_t count) {
+    const std::size_t first = size_;
+    resize(size_ + count);
+    return first;
+  }
+
+  /// Adds copies of the particles of `other` after the present ones, positions and every attribute.
+  /// \throws AttributeError unless both have attributes of the same names and types; the order may differ
+  void append(const Particles& other) {
+    const std::vector<std::size_t> source = match(other);
+    const std::size_t first = append(other.size());
+    const std::size_t count = size_ - first;  // that of `other` before, which may be this very object
+    const auto copy = [&](const auto& from, auto& to) { std::copy_n(from.begin(), count, to.begin() + first); };
+    for (int d = 0; d < D; ++d) copy(other.position_[d], position_[d]);
+    for (std::size_t id = 0; id < entries_.size(); ++id) {
+      for (std::size_t c = 0; c < entries_[id].column.size(); ++c) {
+        const Column& from = other.entries_[source[id]].column[c];
+        std::visit([&](auto& to) { copy(std::get<std::remove_reference_t<decltype(to)>>(from), to); },
+                   entries_[id].column[c]);
+      }
+    }
+  }
+
+  /// Keeps the particles p for which predicate(p) is true, in their order, and removes the others. The predicate is
+  /// asked for every particle before anything is moved, so it may read the particles; if it throws, they are unchanged.
+  /// \return the number of particles removed
+  template <class Predicate>
+  std::size_t keep_if(Predicate&& predicate) {
+    std::vector<std::size_t> kept;
+    kept.reserve(size_);
+    for (std::size_t p = 0; p < size_; ++p) {
+      if (predicate(p)) kept.push_back(p);
+    }
+    const std::size_t removed = size_ - kept.size();
+    if (removed == 0) return 0;
+    for_each_array([&](auto& array) {
+      for (std::size_t k = 0; k < kept.size(); ++k) array[k] = array[kept[k]];
+      array.resize(kept.size());
+    });
+    size_ = kept.size();
+    return removed;
+  }
+
   bool has(std::string_view name) const {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.name == name; });
   }
@@ -143,6 +187,29 @@ class Particles {
       return static_cast<typename Array::value_type>(initial[c]);
     }
   };
+
+  /// For each attribute the number of the one of `other` with the same name, type and number of components.
+  std::vector<std::size_t> match(const Particles& other) const {
+    std::vector<std::size_t> result;
+    for (const Entry& entry : entries_) {
+      const auto found = std::find_if(other.entries_.begin(), other.entries_.end(), [&](const Entry& e) {
+        return e.name == entry.name && e.column.size() == entry.column.size() &&
+               e.column[0].index() == entry.column[0].index();
+      });
+      if (found == other.entries_.end()) {
+        throw AttributeError(detail::message("particles to append have no attribute \"", entry.name, "\" of ",
+                                             entry.column.size(), " component(s) of the same type: add it to them"));
+      }
+      result.push_back(static_cast<std::size_t>(found - other.entries_.begin()));
+    }
+    for (const Entry& entry : other.entries_) {
+      if (!has(entry.name)) {
+        throw AttributeError(detail::message("particles to append have an attribute \"", entry.name,
+                                             "\" that these have not: add it to these first"));
+      }
+    }
+    return result;
+  }
 
   template <class V>
   static bool holds(const Entry& entry) {
