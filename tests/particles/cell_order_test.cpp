@@ -159,8 +159,9 @@ BOOST_AUTO_TEST_CASE(bad_input_changes_nothing) {
   const auto refuses = [&](std::size_t p, const Vec<2>& x, const std::string& part) {
     const Vec<2> sound = particles.positions()[p];
     particles.positions().set(p, x);
-    BOOST_CHECK_EXCEPTION(order.sort(grid, particles.positions(), OpenMP{2}), PositionError,
-                          [&](const Error& error) { return std::string(error.what()).find(part) != std::string::npos; });
+    BOOST_CHECK_EXCEPTION(order.sort(grid, particles.positions(), OpenMP{2}), PositionError, [&](const Error& error) {
+      return std::string(error.what()).find(part) != std::string::npos;
+    });
     BOOST_TEST(std::equal(kept.begin(), kept.end(), order.order().begin(), order.order().end()));
     particles.positions().set(p, sound);
   };

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #define BOOST_TEST_MODULE neighbours
 #include <boost/test/unit_test.hpp>
-#include <cstring>
 #include <limits>
 #include <random>
-#include <set>
+#include <string>
 #include <tuple>
 
 #include <cambium/particles/neighbours.hpp>
@@ -19,8 +18,7 @@ struct Case {
   static constexpr int dimension = D;
   using Scalar = T;
 };
-using Cases =
-    std::tuple<Case<1, double>, Case<2, double>, Case<3, double>, Case<1, float>, Case<2, float>, Case<3, float>>;
+using Cases = std::tuple<Case<1, double>, Case<2, double>, Case<3, double>, Case<3, float>>;
 
 /// A box away from the origin with unequal sides; bit d of `periodic` makes axis d periodic.
 template <int D>
@@ -57,11 +55,6 @@ Vec<D> wrapped(const Domain<D>& domain, const Vec<D, T>& x) {
   Vec<D> result;
   for (int d = 0; d < D; ++d) result[d] = static_cast<double>(x[d]);
   return domain.wrap(result);
-}
-
-template <int D>
-bool same(const Vec<D>& a, const Vec<D>& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
 template <int D>
@@ -145,6 +138,44 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(pairs_are_met_once_and_antisymmetrically, C, Cases
       }
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(nearest_is_found_however_far, C, Cases) {
+  constexpr int D = C::dimension;
+  using T = typename C::Scalar;
+  for (unsigned periodic = 0; periodic < (1u << D); ++periodic) {
+    const Domain<D> domain = box_with<D>(periodic);
+    for (const std::size_t count : {1, 5, 200}) {
+      const Particles<D, T> particles = scatter<D, T>(domain, count, 5 * periodic + D);
+      const Particles<D> points =
+          scatter<D, double>(Domain<D>{domain.box, Domain<D>::periodic_box({}).periodic}, 40, 8);
+      const Neighbours<D, T> near(domain, particles.positions(), 0.003);  // far below the distances
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec<D> at = points.positions()[i];
+        for (const std::size_t excluded : {std::size_t{0}, near.no_particle}) {
+          double least = std::numeric_limits<double>::infinity();
+          for (std::size_t q = 0; q < count; ++q) {
+            const Vec<D> r = domain.difference(domain.wrap(at), wrapped(domain, particles.positions()[q]));
+            if (q != excluded) least = std::min(least, norm(r));
+          }
+          const auto found = near.nearest(at, excluded);
+          BOOST_TEST(found.has_value() == (count > (excluded == 0 ? 1u : 0u)));
+          if (found) BOOST_TEST(norm(found->r) == least);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nearest_of_equals_has_the_lowest_number) {
+  Particles<1> particles(3);
+  const double x[] = {0.75, 0.25, 0.25};
+  for (std::size_t p = 0; p < 3; ++p) particles.positions().set(p, {x[p]});
+  const Neighbours<1> near(Domain<1>::periodic_box(Box<1>::cube()), particles.positions(), 0.4);
+  BOOST_TEST(near.nearest(Vec<1>{0.5})->particle == 0u);
+  BOOST_TEST(near.nearest(Vec<1>{0.4})->particle == 1u);
+  BOOST_TEST(near.nearest(Vec<1>{0.25}, 1)->particle == 2u);
+  BOOST_CHECK_THROW((void)near.nearest(Vec<1>{std::numeric_limits<double>::infinity()}), PositionError);
 }
 
 BOOST_AUTO_TEST_CASE(lattice_ties_are_met_once) {
