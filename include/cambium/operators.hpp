@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// \dir operators  Derivatives on lattices and on particles.
-#include <cambium/operators/difference_rows.hpp>
-#include <cambium/operators/difference_weights.hpp>
+/// \dir operators  Derivatives of fields on lattices and of functions carried by particles.
+///
+/// Discretisation-corrected PSE needs Eigen and is included by itself: <cambium/operators/dcpse.hpp>.
 #include <cambium/operators/differences.hpp>
+#include <cambium/operators/pse.hpp>
