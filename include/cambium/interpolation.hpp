@@ -3,5 +3,7 @@
 #pragma once
 
 /// \dir interpolation  From particles to a mesh, from a mesh to particles, remeshing.
-#include <cambium/interpolation/axis.hpp>
+#include <cambium/interpolation/interpolator.hpp>
+#include <cambium/interpolation/m2p.hpp>
+#include <cambium/interpolation/p2m.hpp>
 #include <cambium/interpolation/plain.hpp>

@@ -19,27 +19,45 @@ struct AxisOffset {
   T g;
 };
 
-/// Finds the stencil of kernel K along one axis.
+/// Number of cells that particles can lie in along an axis: one per node if periodic or if the kernel is centred on
+/// nodes (odd support), one per gap between nodes otherwise.
+template <class K, int D>
+std::ptrdiff_t cells_along(const Lattice<D>& lattice, int axis) {
+  return lattice.nodes()[axis] - (lattice.periodic(axis) || K::support % 2 == 1 ? 0 : 1);
+}
+
+/// Finds the stencil of kernel K along one axis, for one particle or for a simd::Pack of them.
 ///
-/// Periodic axes wrap; `cell` is in [0, nodes). On bounded axes a particle on the upper face belongs to the last cell.
+/// Periodic axes wrap. Round-off at a cell's face may put a particle into the neighbouring cell with an offset just
+/// beyond +-1/2, where both cells' weights agree; it never leaves the range of cells.
 template <class K, class T>
 class AxisLocator {
  public:
+  AxisLocator() = default;
   template <int D>
   AxisLocator(const Lattice<D>& lattice, int axis)
       : lo_(static_cast<T>(lattice.box().lo[axis])),
         inverse_spacing_(static_cast<T>(1.0 / lattice.spacing())),
-        nodes_(static_cast<T>(lattice.nodes()[axis])),
-        last_(static_cast<T>(lattice.nodes()[axis] - (lattice.periodic(axis) || K::support % 2 == 1 ? 1 : 2))),
-        period_(lattice.periodic(axis) ? nodes_ : T(0)) {}
+        last_(static_cast<T>(cells_along<K>(lattice, axis) - 1)),
+        period_(static_cast<T>(lattice.periodic(axis) ? lattice.nodes()[axis] : 0)),
+        inverse_period_(static_cast<T>(lattice.periodic(axis) ? 1.0 / static_cast<double>(lattice.nodes()[axis]) : 0)) {
+  }
 
-  /// Position in spacings from the first node, wrapped into [0, nodes] on periodic axes, plus the kernel's shift.
-  T reduce(T x) const {
-    T u = (x - lo_) * inverse_spacing_ + static_cast<T>(Taps<K>::shift);
-    return u - period_ * std::floor(u / nodes_);
+  /// Position in spacings from the first node plus the kernel's shift, wrapped on periodic axes.
+  template <class V>
+  V reduce(const V& x) const {
+    using std::floor;
+    const V u = (x - V(lo_)) * V(inverse_spacing_) + V(static_cast<T>(Taps<K>::shift));
+    return u - V(period_) * floor(u * V(inverse_period_));
   }
   /// Cell of a reduced position.
-  T cell(T reduced) const { return std::min(std::floor(reduced), last_); }
+  template <class V>
+  V cell(const V& reduced) const {
+    using std::floor;
+    using std::max;
+    using std::min;
+    return max(min(floor(reduced), V(last_)), V(T(0)));
+  }
 
   AxisOffset<T> operator()(T x) const {
     const T u = reduce(x);
@@ -48,11 +66,11 @@ class AxisLocator {
   }
 
  private:
-  T lo_;
-  T inverse_spacing_;
-  T nodes_;
-  T last_;
-  T period_;
+  T lo_{};
+  T inverse_spacing_{};
+  T last_{};
+  T period_{};
+  T inverse_period_{};
 };
 
 /// Weight of boundary node `j` in the extrapolation of degree `degree` to the node `outside` < 0, nodes 0, ..., degree

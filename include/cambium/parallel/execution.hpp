@@ -40,16 +40,17 @@ concept Execution = std::copy_constructible<E> && requires(const E& execution) {
   { execution.count() } -> std::convertible_to<int>;
 };
 
-/// Calls f(begin, end) for consecutive pieces of [0, count) of `piece` items each (the last may be shorter).
+/// Calls f(worker, begin, end) for consecutive pieces of [0, count) of `piece` items each (the last may be shorter).
 ///
+/// `worker` in [0, execution.count()) tells apart the threads that run at the same time: scratch memory of its own.
 /// Pieces depend on `count` and `piece` alone, so an f that writes only to places of its own items gives the same bits
 /// for any number of threads. An exception thrown by f is rethrown on the calling thread; of several, the one of the
 /// first piece.
 template <Execution E, class F>
-void for_each_piece(const E& execution, std::size_t count, std::size_t piece, F&& f) {
+void for_each_piece_by_worker(const E& execution, std::size_t count, std::size_t piece, F&& f) {
   piece = std::max<std::size_t>(piece, 1);
   const std::size_t pieces = (count + piece - 1) / piece;
-  const auto run = [&](std::size_t p) { f(p * piece, std::min(count, (p + 1) * piece)); };
+  const auto run = [&](std::size_t worker, std::size_t p) { f(worker, p * piece, std::min(count, (p + 1) * piece)); };
 #if defined(_OPENMP)
   const int threads = static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(execution.count()), pieces));
   if (threads > 1) {
@@ -58,7 +59,7 @@ void for_each_piece(const E& execution, std::size_t count, std::size_t piece, F&
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
     for (std::size_t p = 0; p < pieces; ++p) {
       try {
-        run(p);
+        run(static_cast<std::size_t>(omp_get_thread_num()), p);
       } catch (...) {
 #pragma omp critical(cambium_for_each_piece)
         if (p < failed) {
@@ -73,7 +74,14 @@ void for_each_piece(const E& execution, std::size_t count, std::size_t piece, F&
 #else
   (void)execution;
 #endif
-  for (std::size_t p = 0; p < pieces; ++p) run(p);
+  for (std::size_t p = 0; p < pieces; ++p) run(0, p);
+}
+
+/// Calls f(begin, end) for consecutive pieces of [0, count); see for_each_piece_by_worker.
+template <Execution E, class F>
+void for_each_piece(const E& execution, std::size_t count, std::size_t piece, F&& f) {
+  for_each_piece_by_worker(execution, count, piece,
+                           [&](std::size_t, std::size_t begin, std::size_t end) { f(begin, end); });
 }
 
 /// Calls f(i) for i in [0, count).

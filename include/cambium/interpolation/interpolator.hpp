@@ -1,0 +1,270 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include <cambium/core/columns.hpp>
+#include <cambium/core/sparse.hpp>
+#include <cambium/interpolation/dense_engine.hpp>
+#include <cambium/interpolation/line_engine.hpp>
+#include <cambium/interpolation/sparse_engine.hpp>
+#include <cambium/particles/particles.hpp>
+
+namespace cambium {
+
+/// What a renormalised P2M found.
+struct Coverage {
+  /// Number of nodes whose sum of weights is below the wanted one and which took the fallback value.
+  std::size_t uncovered = 0;
+  /// Smallest sum of weights of the nodes that took an interpolated value; 1 if there is none.
+  double smallest_weight = 1.0;
+};
+
+/// When a renormalised P2M takes a node as covered by particles, and what it writes elsewhere.
+template <class V>
+struct RenormalisedParams {
+  /// A node is covered if the sum of the weights of the particles around it is at least this.
+  double smallest_weight = 0.1;
+  /// Value of the nodes that are not covered.
+  V fallback{};
+};
+
+namespace detail {
+
+/// Buffers of interpolation between one kind of particles and one kind of mesh; made once, reused as long as the
+/// lattice stays the same.
+template <class K, class T, class P, int D, int C, class Storage>
+struct InterpolationPlan {
+  using Engine = std::conditional_t<std::is_same_v<Storage, Sparse>, SparseEngine<K, T, P, D, C>,
+                                    std::conditional_t<D == 1, LineEngine<K, T, P, C>, DenseEngine<K, T, P, D, C>>>;
+
+  explicit InterpolationPlan(const Lattice<D>& lattice) : engine(lattice) {}
+
+  /// Orders the particles; copies positions into the order of rows if they are not in it.
+  template <Execution E>
+  std::array<const P*, D> place(Columns<D, const P> x, const E& execution) {
+    if constexpr (std::is_same_v<Storage, Sparse>) {
+      engine.order(x, order, execution);
+    } else {
+      order.template build<K>(engine.lattice(), x, execution);
+    }
+    std::array<const P*, D> ordered;
+    for (int d = 0; d < D; ++d) {
+      ordered[d] = x.column(d).data();
+      if (order.sorted()) continue;
+      order.scatter(x.column(d), positions[d], execution);
+      ordered[d] = positions[d].data();
+    }
+    return ordered;
+  }
+
+  Engine engine;
+  RowOrder order;
+  std::array<AlignedVector<P>, D> positions;
+  std::array<AlignedVector<T>, C> values;
+};
+
+/// Objects of any type, found by their type and lattice; holds one of each type.
+class PlanStore {
+ public:
+  template <class Plan, int D>
+  Plan& get(const Lattice<D>& lattice) {
+    for (auto& entry : entries_) {
+      if (entry.type != &tag<Plan>) continue;
+      auto* plan = static_cast<Plan*>(entry.object.get());
+      if (!(plan->engine.lattice() == lattice)) {
+        entry.object = std::make_shared<Plan>(lattice);
+        plan = static_cast<Plan*>(entry.object.get());
+      }
+      return *plan;
+    }
+    entries_.push_back({&tag<Plan>, std::make_shared<Plan>(lattice)});
+    return *static_cast<Plan*>(entries_.back().object.get());
+  }
+
+ private:
+  template <class>
+  static constexpr char tag = 0;
+  struct Entry {
+    const char* type;
+    std::shared_ptr<void> object;
+  };
+  std::vector<Entry> entries_;
+};
+
+template <class V, class S, int D>
+auto mesh_data(Field<V, D, S>& mesh) {
+  return &component(mesh[0], 0);
+}
+
+/// \throws ValueError naming the first strength that is not finite
+template <int C, class T>
+void require_finite(Columns<C, const T> strength) {
+  for (int c = 0; c < C; ++c) {
+    const auto column = strength.column(c);
+    T nothing(0);
+    for (const T q : column) nothing += q * T(0);
+    if (nothing == T(0)) continue;
+    for (std::size_t p = 0; p < column.size(); ++p) {
+      if (std::isfinite(column[p])) continue;
+      throw ValueError(message("strength of particle ", p, ", component ", c, ", is ", column[p],
+                               ": only finite strengths can be interpolated"));
+    }
+  }
+}
+
+}  // namespace detail
+
+/// Interpolation between particles and a lattice with kernel K, in 1D, 2D and 3D, float or double, any number of
+/// components at once, dense or sparse meshes, periodic or bounded axes.
+///
+/// p2m and m2p are adjoint: <p2m a, b> = <a, m2p b>. At bounded faces stencils are closed by extrapolation of the
+/// kernel's moment degree, so that moments are conserved and orders kept up to the face. Particles need no order;
+/// those already in the order of rows of cells (cell order, or the order of a remeshed lattice) skip a sort.
+/// Results are the same bits for any number of threads. The object keeps its buffers between calls; it must not be
+/// used by two threads at a time.
+///
+/// Errors thrown, before anything is written: PositionError (position not finite, or outside a bounded box), ValueError
+/// (strength not finite), SizeError (array lengths differ), LatticeError (fewer nodes than the kernel needs).
+template <RemeshingKernel Kernel>
+class Interpolator {
+ public:
+  Interpolator() { check_remeshing_kernel<Kernel>(); }
+
+  /// mesh_i := sum_p strength_p W((x_i - x_p) / h), eq. 11.17: conserves total and moments. Overwrites the mesh; a
+  /// sparse mesh gets exactly the blocks under the particles.
+  template <int D, class P, int C, class T, class V, class S, Execution E = OpenMP>
+  void p2m(Columns<D, const P> x, Columns<C, const T> strength, Field<V, D, S>& mesh, const E& execution = {}) {
+    check_values<C, T, V>();
+    detail::require_room_for_kernel<Kernel>(mesh.lattice());
+    require_size(strength.size(), x.size(), "the array of strengths");
+    detail::require_finite(strength);
+    auto& plan = plans_.template get<detail::InterpolationPlan<Kernel, T, P, D, C, S>>(mesh.lattice());
+    const auto ordered = plan.place(x, execution);
+    std::array<const T*, C> q;
+    for (int c = 0; c < C; ++c) {
+      q[c] = strength.column(c).data();
+      if (plan.order.sorted()) continue;
+      plan.order.scatter(strength.column(c), plan.values[c], execution);
+      q[c] = plan.values[c].data();
+    }
+    if constexpr (std::is_same_v<S, Sparse>) {
+      plan.engine.p2m(ordered, q, plan.order, mesh, execution);
+    } else {
+      plan.engine.p2m(ordered, q, plan.order, &component(mesh[0], 0), execution);
+    }
+  }
+
+  /// value_p := sum_i mesh_i W((x_i - x_p) / h). Reads inactive blocks of a sparse mesh as its background.
+  template <int D, class P, int C, class T, class V, class S, Execution E = OpenMP>
+  void m2p(const Field<V, D, S>& mesh, Columns<D, const P> x, Columns<C, T> value, const E& execution = {}) {
+    check_values<C, T, V>();
+    detail::require_room_for_kernel<Kernel>(mesh.lattice());
+    require_size(value.size(), x.size(), "the array of values");
+    auto& plan = plans_.template get<detail::InterpolationPlan<Kernel, T, P, D, C, S>>(mesh.lattice());
+    const auto ordered = plan.place(x, execution);
+    std::array<T*, C> q;
+    for (int c = 0; c < C; ++c) {
+      q[c] = value.column(c).data();
+      if (plan.order.sorted()) continue;
+      plan.values[c].resize(x.size());
+      q[c] = plan.values[c].data();
+    }
+    if constexpr (std::is_same_v<S, Sparse>) {
+      plan.engine.m2p(ordered, q, plan.order, mesh, execution);
+    } else {
+      plan.engine.m2p(ordered, q, plan.order, &component(mesh[0], 0), execution);
+    }
+    for (int c = 0; c < C && !plan.order.sorted(); ++c) plan.order.gather(plan.values[c], value.column(c), execution);
+  }
+
+  /// mesh_i := sum_p value_p W / sum_p W, eq. 11.31: for values rather than strengths; the denominator stands for the
+  /// particles' volumes. Nodes too far from any particle take the fallback value and are counted in the result.
+  template <int D, class P, int C, class T, class V, class S, Execution E = OpenMP>
+  Coverage p2m_renormalised(Columns<D, const P> x, Columns<C, const T> value, Field<V, D, S>& mesh,
+                            const RenormalisedParams<V>& params = {}, const E& execution = {}) {
+    require_size(value.size(), x.size(), "the array of values");
+    std::array<const T*, C + 1> weighted;
+    for (int c = 0; c < C; ++c) weighted[c] = value.column(c).data();
+    const AlignedVector<T> ones(x.size(), T(1));
+    weighted[C] = ones.data();
+    Field<Vec<C + 1, T>, D, S> sums(mesh.lattice());
+    p2m(x, Columns<C + 1, const T>(weighted, x.size()), sums, execution);
+    return divide(sums, mesh, params);
+  }
+
+  template <int D, class P, class V, class S, Execution E = OpenMP>
+  void p2m(const Particles<D, P>& particles, Attribute<V> strength, Field<V, D, S>& mesh, const E& execution = {}) {
+    p2m(particles.positions(), columns(particles[strength]), mesh, execution);
+  }
+  template <int D, class P, class V, class S, Execution E = OpenMP>
+  void m2p(const Field<V, D, S>& mesh, Particles<D, P>& particles, Attribute<V> value, const E& execution = {}) {
+    const Particles<D, P>& constant = particles;
+    m2p(mesh, constant.positions(), columns(particles[value]), execution);
+  }
+  template <int D, class P, class V, class S, Execution E = OpenMP>
+  Coverage p2m_renormalised(const Particles<D, P>& particles, Attribute<V> value, Field<V, D, S>& mesh,
+                            const RenormalisedParams<V>& params = {}, const E& execution = {}) {
+    return p2m_renormalised(particles.positions(), columns(particles[value]), mesh, params, execution);
+  }
+
+ private:
+  template <int C, class T, class V>
+  static void check_values() {
+    static_assert(Components<V>::count == C, "cambium: particles and mesh must have the same number of components");
+    static_assert(std::is_same_v<ScalarOf<V>, T>, "cambium: particles and mesh must hold the same scalar type");
+  }
+  template <class T>
+  static Columns<1, T> columns(std::span<T> scalar) {
+    return Columns<1, T>(scalar);
+  }
+  template <int C, class T>
+  static Columns<C, T> columns(Columns<C, T> vector) {
+    return vector;
+  }
+
+  /// Divides the first components by the last, node by node.
+  template <class Sums, class V>
+  static void quotient(const Sums& sum, V& value, const RenormalisedParams<V>& params, Coverage& coverage) {
+    constexpr int C = Components<V>::count;
+    const auto weight = static_cast<double>(sum[C]);
+    if (weight < params.smallest_weight) {
+      value = params.fallback;
+      ++coverage.uncovered;
+      return;
+    }
+    coverage.smallest_weight = std::min(coverage.smallest_weight, weight);
+    for (int c = 0; c < C; ++c) component(value, c) = sum[c] / sum[C];
+  }
+  template <class Sums, class V, int D>
+  static Coverage divide(const Field<Sums, D, Dense>& sums, Field<V, D, Dense>& mesh,
+                         const RenormalisedParams<V>& params) {
+    Coverage coverage;
+    for (std::size_t i = 0; i < mesh.size(); ++i) quotient(sums[i], mesh[i], params, coverage);
+    return coverage;
+  }
+  template <class Sums, class V, int D>
+  static Coverage divide(const Field<Sums, D, Sparse>& sums, Field<V, D, Sparse>& mesh,
+                         const RenormalisedParams<V>& params) {
+    Coverage coverage;
+    mesh.clear();
+    for (std::size_t b = 0; b < sums.blocks(); ++b) {
+      const std::size_t to = mesh.activate(sums.block_index(b));
+      for (std::size_t i = 0; i < sums.block(b).size(); ++i) {
+        if (!sums.lattice().contains(sums.node(b, i))) continue;
+        quotient(sums.block(b)[i], mesh.block(to)[i], params, coverage);
+      }
+    }
+    return coverage;
+  }
+
+  detail::PlanStore plans_;
+};
+
+}  // namespace cambium

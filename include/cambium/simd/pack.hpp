@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <xsimd/xsimd.hpp>
+
+namespace cambium::simd {
+
+namespace detail {
+
+/// Number of lanes of the widest hardware vector of T that divides N, or 1 if there is none.
+template <class T, std::size_t N>
+constexpr std::size_t widest() {
+  if constexpr (N <= 1) {
+    return 1;
+  } else if constexpr (!std::is_void_v<xsimd::make_sized_batch_t<T, N>>) {
+    return N;
+  } else {
+    return widest<T, N / 2>();
+  }
+}
+
+}  // namespace detail
+
+/// N lanes of T, N a power of two. One hardware vector where there is one of that size, several or plain scalars
+/// otherwise: code written for N lanes runs on every machine.
+template <class T, std::size_t N>
+class Pack {
+ public:
+  static_assert(N > 0 && (N & (N - 1)) == 0, "cambium::simd::Pack: the number of lanes must be a power of two");
+  static constexpr std::size_t lanes = N;
+  static constexpr std::size_t width = detail::widest<T, N>();
+  static constexpr std::size_t count = N / width;
+  /// Alignment in bytes that load_aligned and store_aligned rely on.
+  static constexpr std::size_t alignment = width * sizeof(T);
+
+  Pack() = default;
+  /// All lanes equal to `value`.
+  explicit Pack(T value) {
+    for (auto& part : part_) part = Part(value);
+  }
+
+  static Pack load_aligned(const T* from) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part::load_aligned(from + i * width);
+      } else {
+        return from[i];
+      }
+    });
+  }
+  static Pack load(const T* from) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part::load_unaligned(from + i * width);
+      } else {
+        return from[i];
+      }
+    });
+  }
+  void store_aligned(T* to) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if constexpr (width > 1) {
+        part_[i].store_aligned(to + i * width);
+      } else {
+        to[i] = part_[i];
+      }
+    }
+  }
+  void store(T* to) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if constexpr (width > 1) {
+        part_[i].store_unaligned(to + i * width);
+      } else {
+        to[i] = part_[i];
+      }
+    }
+  }
+
+  friend Pack operator+(const Pack& a, const Pack& b) {
+    return build([&](std::size_t i) { return Part(a.part_[i] + b.part_[i]); });
+  }
+  friend Pack operator-(const Pack& a, const Pack& b) {
+    return build([&](std::size_t i) { return Part(a.part_[i] - b.part_[i]); });
+  }
+  friend Pack operator*(const Pack& a, const Pack& b) {
+    return build([&](std::size_t i) { return Part(a.part_[i] * b.part_[i]); });
+  }
+  /// a * b + c
+  friend Pack fma(const Pack& a, const Pack& b, const Pack& c) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::fma(a.part_[i], b.part_[i], c.part_[i]));
+      } else {
+        return a.part_[i] * b.part_[i] + c.part_[i];
+      }
+    });
+  }
+  friend Pack floor(const Pack& a) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::floor(a.part_[i]));
+      } else {
+        return std::floor(a.part_[i]);
+      }
+    });
+  }
+  friend Pack min(const Pack& a, const Pack& b) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::min(a.part_[i], b.part_[i]));
+      } else {
+        return a.part_[i] < b.part_[i] ? a.part_[i] : b.part_[i];
+      }
+    });
+  }
+  friend Pack max(const Pack& a, const Pack& b) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::max(a.part_[i], b.part_[i]));
+      } else {
+        return a.part_[i] > b.part_[i] ? a.part_[i] : b.part_[i];
+      }
+    });
+  }
+  /// Sum of all lanes.
+  friend T sum(const Pack& a) {
+    Part total = a.part_[0];
+    for (std::size_t i = 1; i < count; ++i) total = Part(total + a.part_[i]);
+    if constexpr (width == 1) {
+      return total;
+    } else if constexpr (requires { reduce_add(total); }) {
+      return reduce_add(total);
+    } else {
+      return hadd(total);
+    }
+  }
+
+ private:
+  template <bool Vector, class>
+  struct PartType {
+    using type = T;
+  };
+  template <class Dummy>
+  struct PartType<true, Dummy> {
+    using type = xsimd::make_sized_batch_t<T, width>;
+  };
+  using Part = typename PartType<(width > 1), void>::type;
+
+  template <class F>
+  static Pack build(F&& f) {
+    Pack result;
+    for (std::size_t i = 0; i < count; ++i) result.part_[i] = f(i);
+    return result;
+  }
+
+  Part part_[count];
+};
+
+/// Lanes that fill the widest hardware vector of T, at least 4.
+template <class T>
+inline constexpr std::size_t native_lanes = [] {
+  constexpr std::size_t lanes = detail::widest<T, 64 / sizeof(T)>();
+  return lanes < 4 ? std::size_t{4} : lanes;
+}();
+
+/// The pointer itself, opaque to the optimiser: keeps it from turning `pointer + j * pitch` for each row j into as many
+/// loop invariants, which would not fit the registers and be reloaded from the stack at every use.
+template <class T>
+inline T* keep_in_register(T* pointer) {
+  asm("" : "+r"(pointer));
+  return pointer;
+}
+
+}  // namespace cambium::simd
