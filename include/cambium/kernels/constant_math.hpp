@@ -16,6 +16,7 @@ template <std::floating_point T>
 constexpr T square_root(T x) {
   if (!std::is_constant_evaluated()) return std::sqrt(x);
   if (x < T(0)) return std::numeric_limits<T>::quiet_NaN();
+  if (x == T(0)) return x;
   T root = x < T(1) ? T(1) : x;
   for (T next = (root + x / root) / T(2); next < root; next = (root + x / root) / T(2)) root = next;
   return root;

@@ -117,7 +117,7 @@ struct Taps {
         for (int j = degree - 1; j >= 0; --j) sum = sum * g + static_cast<T>(coefficients.value[j][k]);
         w[k] = sum;
       } else {
-        w[k] = static_cast<T>(K::value(static_cast<double>(g) + 0.5 * (support - 1) - k));
+        w[k] = static_cast<T>(K::value(static_cast<double>(g) + (0.5 * (support - 1) - k)));
       }
     }
   }
