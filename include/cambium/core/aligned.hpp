@@ -4,7 +4,7 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <cstring>
+#include <limits>
 #include <new>
 #include <vector>
 
@@ -25,7 +25,9 @@ class AlignedAllocator {
   template <class U>
   AlignedAllocator(const AlignedAllocator<U>&) {}
 
+  /// \throws std::bad_array_new_length if the bytes cannot be counted; std::bad_alloc if there is no memory
   T* allocate(std::size_t count) {
+    if (count > most_bytes / sizeof(T)) throw std::bad_array_new_length();
     const std::size_t bytes = count * sizeof(T);
     const std::size_t alignment = bytes >= huge_from ? huge_page : cache_line;
     void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
@@ -42,6 +44,7 @@ class AlignedAllocator {
  private:
   static constexpr std::size_t cache_line = 64;
   static constexpr std::size_t huge_page = std::size_t{2} << 20;
+  static constexpr std::size_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max() - huge_page;
   static constexpr std::size_t huge_from = std::size_t{4} << 20;
 };
 

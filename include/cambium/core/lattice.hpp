@@ -23,14 +23,21 @@ class Lattice {
 
   /// \param spacing   node distance h, the same along every axis (length units of the box)
   /// \param periodic  one flag per axis
-  /// \throws LatticeError if h is not positive and finite, the box is empty or not finite, or an extent is not a whole
-  ///         number of spacings (to 1e-9 of a spacing, relative to the number of cells)
+  /// \throws LatticeError if h is not positive and finite, the box is empty or not finite, an extent is not a whole
+  ///         number of spacings (to 1e-9 of a spacing, relative to the number of cells), or the nodes are too many to
+  ///         be numbered
   Lattice(const Box<D>& box, double spacing, const std::array<bool, D>& periodic)
       : domain_{box, periodic}, spacing_(spacing) {
     if (!(spacing > 0.0) || !std::isfinite(spacing)) {
       throw LatticeError(detail::message("lattice spacing is ", spacing, ": it must be a positive, finite length"));
     }
     for (int d = 0; d < D; ++d) nodes_[d] = count_cells(d) + (periodic[d] ? 0 : 1);
+    double nodes = 1.0;
+    for (int d = 0; d < D; ++d) nodes *= static_cast<double>(nodes_[d]);
+    if (nodes > most_nodes) {
+      throw LatticeError(
+          detail::message("lattice of ", nodes_, " nodes is too large to be numbered: ", larger_spacing));
+    }
   }
 
   /// Lattice with `cells` cells along axis 0, periodic along every axis.
@@ -51,9 +58,14 @@ class Lattice {
   /// Number of nodes.
   std::size_t size() const { return static_cast<std::size_t>(product(nodes_)); }
 
+  /// lo + i h along each axis; the last node of a bounded axis is on the face to the last bit, never a rounding
+  /// outside.
   Vec<D> position(const Index<D>& node) const {
     Vec<D> x;
-    for (int d = 0; d < D; ++d) x[d] = domain_.box.lo[d] + static_cast<double>(node[d]) * spacing_;
+    for (int d = 0; d < D; ++d) {
+      const bool on_face = !domain_.periodic[d] && node[d] == nodes_[d] - 1;
+      x[d] = on_face ? domain_.box.hi[d] : domain_.box.lo[d] + static_cast<double>(node[d]) * spacing_;
+    }
     return x;
   }
 
@@ -91,6 +103,10 @@ class Lattice {
   friend bool operator==(const Lattice&, const Lattice&) = default;
 
  private:
+  /// 2^53: whole numbers up to it are exact in double precision.
+  static constexpr double most_nodes = 9007199254740992.0;
+  static constexpr const char* larger_spacing = "choose a larger spacing";
+
   static Lattice from_cells(const Box<D>& box, std::ptrdiff_t cells, bool periodic) {
     if (cells < 1) {
       throw LatticeError(detail::message("lattice with ", cells, " cells along axis 0: it needs at least one"));
@@ -107,6 +123,10 @@ class Lattice {
                                          " to ", domain_.box.hi[d], "): it must be positive and finite"));
     }
     const double cells = std::round(length / spacing_);
+    if (cells > most_nodes) {
+      throw LatticeError(detail::message("lattice of ", cells, " nodes along axis ", d,
+                                         " is too large to be numbered: ", larger_spacing));
+    }
     if (cells < 1.0 || std::abs(length / spacing_ - cells) > 1e-9 * cells) {
       throw LatticeError(detail::message(domain_.periodic[d] ? "period " : "extent ", length, " along axis ", d, " is ",
                                          length / spacing_, " spacings of ", spacing_,

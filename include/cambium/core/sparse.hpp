@@ -58,8 +58,14 @@ class Field<T, D, Sparse> {
 
   /// Number of the active block at `index` in the grid of blocks, or -1.
   std::ptrdiff_t find(const Index<D>& index) const { return table_[entry(index)]; }
-  /// Activates the block at `index` (filled with the background if it is new) and returns its number.
+  /// Activates the block at `index` (filled with the background if it is new) and returns its number. Spans taken of
+  /// blocks before are no longer valid. \throws LatticeError if there is no such block
   std::size_t activate(const Index<D>& index) {
+    for (int d = 0; d < D; ++d) {
+      if (index[d] >= 0 && index[d] < grid_[d]) continue;
+      throw LatticeError(detail::message("block ", index, " is outside the grid of ", grid_, " blocks along axis ", d,
+                                         ": wrap or skip what lies beyond the lattice"));
+    }
     std::int32_t& slot = table_[entry(index)];
     if (slot == absent) {
       values_.resize(values_.size() + Shape::volume, background_);
@@ -68,8 +74,14 @@ class Field<T, D, Sparse> {
     }
     return static_cast<std::size_t>(slot);
   }
-  /// Activates the block that holds `node`.
-  std::size_t activate_node(const Index<D>& node) { return activate(block_of(node)); }
+  /// Activates the block that holds `node`, as activate(). \throws LatticeError if the node is not of the lattice
+  std::size_t activate_node(const Index<D>& node) {
+    if (!lattice_.contains(node)) {
+      throw LatticeError(detail::message("node ", node, " is outside the lattice of ", lattice_.nodes(),
+                                         " nodes: wrap or skip what lies beyond it"));
+    }
+    return activate(block_of(node));
+  }
   /// Removes all blocks; keeps the memory for reuse.
   void clear() {
     for (const auto& index : origins_) table_[entry(index)] = absent;
@@ -77,12 +89,12 @@ class Field<T, D, Sparse> {
     values_.clear();
   }
 
-  /// Value at a node; the background where no block is active.
+  /// Value at a node of the lattice; the background where no block is active.
   const T& operator()(const Index<D>& node) const {
     const std::ptrdiff_t b = find(block_of(node));
     return b < 0 ? background_ : values_[static_cast<std::size_t>(b) * Shape::volume + offset(node)];
   }
-  /// Sets the value at a node, activating its block if need be.
+  /// Sets the value at a node, activating its block if need be. \throws LatticeError if the node is not of the lattice
   void set(const Index<D>& node, const T& value) {
     values_[activate_node(node) * Shape::volume + offset(node)] = value;
   }
