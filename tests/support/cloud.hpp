@@ -151,7 +151,7 @@ struct Arrays {
   std::array<std::vector<double>, C> array;
 
   explicit Arrays(std::size_t size) {
-    for (auto& a : array) a.resize(size);
+    for (auto& a : array) a = std::vector<double>(size);
   }
   cambium::Columns<C, double> columns() {
     std::array<std::span<double>, C> spans;

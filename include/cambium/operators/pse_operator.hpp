@@ -122,7 +122,7 @@ class PSEOperator {
   /// less than -max R if the kernel has no negative Fourier modes. \throws ValueError unless nu > 0
   double stable_step(double diffusivity) const {
     const double integral_bound = largest_euler_step<Kernel, D>(diffusivity, epsilon_);
-    const double itself = detail::pse_scale<detail::LaplacianWeight, D>(epsilon_) * Kernel::template laplacian<D>(0.0);
+    const double itself = detail::PairWeight<detail::LaplacianWeight, Kernel, D>(epsilon_)(Vec<D>{});
     const double largest = reduce(
         execution_, size(), 0.0,
         [&](std::size_t p) {

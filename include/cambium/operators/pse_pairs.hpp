@@ -25,10 +25,8 @@ class EvaluatedPairs {
   /// Calls f(q, r, w) for every neighbour q of particle p: r = x_q - x_p, w = eps^-(D + powers) W(|r|^2 / eps^2).
   template <class W, class F>
   void for_each(std::size_t p, F&& f) const {
-    const double scale = detail::pse_scale<W, D>(epsilon_);
-    const double inverse = 1.0 / (epsilon_ * epsilon_);
-    neighbours_.for_each_neighbour(
-        p, [&](std::size_t q, const Vec<D>& r) { f(q, r, scale * W::template at<Kernel, D>(dot(r, r) * inverse)); });
+    const detail::PairWeight<W, Kernel, D> weight(epsilon_);
+    neighbours_.for_each_neighbour(p, [&](std::size_t q, const Vec<D>& r) { f(q, r, weight(r)); });
   }
 
  private:
@@ -49,9 +47,7 @@ class StoredPairs {
     const Neighbours<D, P> neighbours(domain, positions, radius, execution);
     for (int d = 0; d < D; ++d) position_[d].resize(positions.size());
     cambium::for_each(execution, positions.size(), [&](std::size_t p) {
-      Vec<D> x;
-      for (int d = 0; d < D; ++d) x[d] = static_cast<double>(positions[p][d]);
-      x = domain.wrap(x);
+      const Vec<D> x = neighbours.position(p);
       for (int d = 0; d < D; ++d) position_[d][p] = x[d];
       neighbours.for_each_neighbour(p, [&](std::size_t, const Vec<D>&) { ++first_[p + 1]; });
     });
@@ -59,7 +55,17 @@ class StoredPairs {
     neighbour_.resize(first_.back());
     laplacian_.resize(first_.back());
     gradient_.resize(first_.back());
-    cambium::for_each(execution, positions.size(), [&](std::size_t p) { fill(neighbours, p); });
+    const detail::PairWeight<detail::LaplacianWeight, Kernel, D> laplacian(epsilon);
+    const detail::PairWeight<detail::GradientWeight, Kernel, D> gradient(epsilon);
+    cambium::for_each(execution, positions.size(), [&](std::size_t p) {
+      std::size_t k = first_[p];
+      neighbours.for_each_neighbour(p, [&](std::size_t q, const Vec<D>& r) {
+        neighbour_[k] = static_cast<std::uint32_t>(q);
+        laplacian_[k] = laplacian(r);
+        gradient_[k] = gradient(r);
+        ++k;
+      });
+    });
   }
 
   /// Number of ordered pairs.
@@ -68,6 +74,7 @@ class StoredPairs {
   /// As EvaluatedPairs::for_each; the weight of anisotropic diffusion is evaluated.
   template <class W, class F>
   void for_each(std::size_t p, F&& f) const {
+    const detail::PairWeight<W, Kernel, D> weight(epsilon_);
     for (std::size_t k = first_[p]; k < first_[p + 1]; ++k) {
       const std::size_t q = neighbour_[k];
       const Vec<D> r = difference(p, q);
@@ -76,7 +83,7 @@ class StoredPairs {
       } else if constexpr (std::is_same_v<W, detail::GradientWeight>) {
         f(q, r, gradient_[k]);
       } else {
-        f(q, r, weight<W>(dot(r, r)));
+        f(q, r, weight(r));
       }
     }
   }
@@ -86,21 +93,6 @@ class StoredPairs {
     if (count > std::numeric_limits<std::uint32_t>::max()) {
       throw SizeError(detail::message(count, " particles are more than stored pairs can number (2^32 - 1): use at()"));
     }
-  }
-
-  template <class W>
-  double weight(double r2) const {
-    return detail::pse_scale<W, D>(epsilon_) * W::template at<Kernel, D>(r2 / (epsilon_ * epsilon_));
-  }
-
-  void fill(const Neighbours<D, P>& neighbours, std::size_t p) {
-    std::size_t k = first_[p];
-    neighbours.for_each_neighbour(p, [&](std::size_t q, const Vec<D>& r) {
-      neighbour_[k] = static_cast<std::uint32_t>(q);
-      laplacian_[k] = weight<detail::LaplacianWeight>(dot(r, r));
-      gradient_[k] = weight<detail::GradientWeight>(dot(r, r));
-      ++k;
-    });
   }
 
   /// x_q - x_p to the nearest image; stored positions lie in the box, so one period is enough.

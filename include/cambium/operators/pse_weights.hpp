@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <numbers>
 
+#include <cambium/core/vec.hpp>
 #include <cambium/kernels/pse_kernel.hpp>
 
 namespace cambium::detail {
@@ -35,10 +35,19 @@ struct DiffusionWeight {
   }
 };
 
-template <class W, int D>
-double pse_scale(double epsilon) {
-  return std::pow(epsilon, -(D + W::powers));
-}
+/// The weight W of a pair at distance r: eps^-(D + powers) W(|r|^2 / eps^2).
+template <class W, class K, int D>
+class PairWeight {
+ public:
+  explicit PairWeight(double epsilon) : inverse_square_(1.0 / (epsilon * epsilon)), scale_(1.0) {
+    for (int i = 0; i < D + W::powers; ++i) scale_ /= epsilon;
+  }
+  double operator()(const Vec<D>& r) const { return scale_ * W::template at<K, D>(dot(r, r) * inverse_square_); }
+
+ private:
+  double inverse_square_;
+  double scale_;
+};
 
 template <class K, int D>
 concept HasDiffusionKernel = requires(double rho2) {
