@@ -80,6 +80,8 @@ double jump(double x, int order) {
 
 // Continuity is exact: the next derivative jumps by what the formulas give.
 BOOST_AUTO_TEST_CASE(continuity_class_is_exact) {
+  static_assert(DeltaCosine::continuity == 1 && Delta4::continuity == 1 && Delta3::continuity == 1);
+  static_assert(Delta6::continuity == 3);
   const double quarter_pi = std::acos(-1.0) / 4.0;
   BOOST_TEST(std::abs(jump<DeltaCosine>(2.0, 2) - quarter_pi * quarter_pi) < 1e-6);  // (pi/2)^2 / 4
   // Inner side at 2: s = 12 r - 7 - 4 r^2 = 1, s' = -4, s'' = -8: -(sqrt s)''/8 = -(s''/2 - s'^2/4)/8 = 1.
