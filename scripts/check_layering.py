@@ -13,14 +13,17 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(<[^>\n]*>|"[^"\n]*")', re.MULTILINE)
 
 
 def read_table(text):
-    """The sections of layering.txt: {room: rooms it may include} and [(regular expression, place)]."""
-    rooms, only, section = {}, [], ""
+    """The sections of layering.txt: {room: rooms it may include}, [(regular expression, place)], {header}."""
+    rooms, only, apart, section = {}, [], set(), ""
     for number, line in enumerate(text.splitlines(), 1):
         line = line.strip()
         if not line or line.startswith("#"):
             continue
-        if line in ("[rooms]", "[only]"):
+        if line in ("[rooms]", "[only]", "[apart]"):
             section = line
+            continue
+        if section == "[apart]":
+            apart.add(line)
             continue
         name, colon, rest = line.rpartition(":")
         if not section or not colon:
@@ -29,7 +32,7 @@ def read_table(text):
             rooms[name.strip()] = set(rest.split())
         else:
             only.append((re.compile(name.strip(), re.MULTILINE), rest.strip()))
-    return rooms, only
+    return rooms, only, apart
 
 
 def room_of(header):
@@ -106,14 +109,18 @@ def check_arrows(graph, rooms):
     return complaints
 
 
-def check_umbrellas(graph, rooms):
-    """Complaints about headers that cambium.hpp or the umbrella header of their room does not bring along."""
-    complaints = []
+def check_umbrellas(graph, rooms, apart):
+    """Complaints about headers that cambium.hpp or the umbrella header of their room does not bring along, or brings
+    along although they are to stay apart."""
+    absent = sorted(apart - graph.keys())
+    complaints = [f"tests/layering.txt: {header} is to stay apart and does not exist" for header in absent]
+    brought = reachable(graph, "cambium.hpp").union(*(reachable(graph, f"{room}.hpp") for room in rooms))
+    complaints += [f"an umbrella header brings {header}, which is to stay apart" for header in sorted(apart & brought)]
     for room in rooms:
-        members = {header for header in graph if room_of(header) == room}
+        members = {header for header in graph if room_of(header) == room} - apart
         missing = members - reachable(graph, f"{room}.hpp")
         complaints += [f"{room}.hpp does not bring {header}" for header in sorted(missing)]
-    missing = graph.keys() - reachable(graph, "cambium.hpp")
+    missing = graph.keys() - reachable(graph, "cambium.hpp") - apart
     return complaints + [f"cambium.hpp does not bring {header}" for header in sorted(missing)]
 
 
@@ -133,7 +140,7 @@ def check_names(headers, only):
 
 def check(headers, table):
     """All complaints about `headers` ({name relative to include/cambium: text}) under the text of the table."""
-    rooms, only = read_table(table)
+    rooms, only, apart = read_table(table)
     complaints = [
         f"tests/layering.txt: {room} may include {name}, which is no room"
         for room, names in rooms.items()
@@ -145,7 +152,7 @@ def check(headers, table):
     complaints += unreadable + check_arrows(graph, rooms)
     if cycle := find_cycle(graph):
         complaints.append("headers include each other: " + " -> ".join(cycle))
-    return complaints + check_umbrellas(graph, rooms) + check_names(headers, only)
+    return complaints + check_umbrellas(graph, rooms, apart) + check_names(headers, only)
 
 
 def main(project):

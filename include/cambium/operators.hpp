@@ -6,4 +6,6 @@
 ///
 /// Discretisation-corrected PSE needs Eigen and is included by itself: <cambium/operators/dcpse.hpp>.
 #include <cambium/operators/differences.hpp>
+#include <cambium/operators/monomials.hpp>
 #include <cambium/operators/pse.hpp>
+#include <cambium/operators/weighted_rows.hpp>

@@ -78,6 +78,13 @@ class Layering(unittest.TestCase):
         self.assert_complains("low.hpp does not bring low/d.hpp", "low/d.hpp", "int d();")
         self.assert_complains("cambium.hpp does not bring low/d.hpp", "low/d.hpp", "int d();")
 
+    def test_header_that_stays_apart(self):
+        table = TABLE + "[apart]\nlow/d.hpp\n"
+        self.assertEqual(self.complaints("low/d.hpp", "int d();", table), [])
+        tree = {**GOOD, "low/d.hpp": "int d();\n", "low.hpp": GOOD["low.hpp"] + "#include <cambium/low/d.hpp>\n"}
+        self.assertIn("an umbrella header brings low/d.hpp, which is to stay apart", check(tree, table))
+        self.assertIn("tests/layering.txt: low/d.hpp is to stay apart and does not exist", check(GOOD, table))
+
     def test_missing_header(self):
         self.assert_complains("which does not exist", "left/b.hpp", "#include <cambium/low/z.hpp>")
 
