@@ -20,7 +20,7 @@ constexpr WideInteger scaled_derivative(const Pieces& p, int i, int order, int t
   return sum;
 }
 
-/// Derivatives 0, ..., continuity agree from both sides of every break point, and odd ones vanish at 0: in exact
+/// Derivatives 0, ..., continuity agree from both sides of every break point, and odd ones vanish at 0. In exact
 /// integers.
 template <class K>
 consteval bool pieces_are_continuous() {

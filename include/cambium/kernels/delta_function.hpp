@@ -10,16 +10,14 @@
 namespace cambium {
 
 /// A regularised delta function of the immersed boundary method: a remeshing kernel that also states its
-///   static constexpr int continuity      phi is in C^continuity
+///   static constexpr int continuity          phi is in C^continuity
 /// and, optionally,
-///   static constexpr bool even_odd           sum over even j of phi(t - j) = sum over odd j = 1/2 at every offset t,
-///   so
-///                                            that the checkerboard mode of a centred difference is not driven
-///   static constexpr double sum_of_squares   sum_j phi(t - j)^2 at every offset t, a bound of how much a force depends
-///                                            on where the lattice lies
-///   static constexpr std::array constant_moments   m_a = sum_j (j - t)^a phi(t - j), a = 0, 1, ..., at every offset t
+///   static constexpr bool even_odd           sums of phi(t - j) over even j and over odd j are both 1/2 at every t
+///   static constexpr double sum_of_squares   sum_j phi(t - j)^2, the same at every t
+///   static constexpr std::array<double, n> constant_moments   sum_j (j - t)^a phi(t - j), the same at every t
 ///
-/// Source of the conditions: Peskin, Acta Numerica 11 (2002) 479, section 6.
+/// The even-odd condition keeps the checkerboard mode of centred differences undriven; a constant sum of squares bounds
+/// how much a force depends on where the lattice lies. Peskin, Acta Numerica 11 (2002) 479, section 6.
 template <class K>
 concept DeltaFunction = RemeshingKernel<K> && requires {
   { K::continuity } -> std::convertible_to<int>;
