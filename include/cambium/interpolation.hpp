@@ -7,3 +7,4 @@
 #include <cambium/interpolation/m2p.hpp>
 #include <cambium/interpolation/p2m.hpp>
 #include <cambium/interpolation/plain.hpp>
+#include <cambium/interpolation/remesher.hpp>

@@ -98,9 +98,21 @@ class PlanStore {
   std::vector<Entry> entries_;
 };
 
-template <class V, class S, int D>
-auto mesh_data(Field<V, D, S>& mesh) {
-  return &component(mesh[0], 0);
+/// Holder of a lattice in the form that PlanStore asks for.
+template <int D>
+struct OnLattice {
+  Lattice<D> on;
+  const Lattice<D>& lattice() const { return on; }
+};
+
+/// What `particles[attribute]` gives, as Columns.
+template <class T>
+Columns<1, T> columns_of(std::span<T> scalar) {
+  return Columns<1, T>(scalar);
+}
+template <int C, class T>
+Columns<C, T> columns_of(Columns<C, T> vector) {
+  return vector;
 }
 
 /// \throws ValueError naming the first strength that is not finite
@@ -201,17 +213,17 @@ class Interpolator {
 
   template <int D, class P, class V, class S, Execution E = OpenMP>
   void p2m(const Particles<D, P>& particles, Attribute<V> strength, Field<V, D, S>& mesh, const E& execution = {}) {
-    p2m(particles.positions(), columns(particles[strength]), mesh, execution);
+    p2m(particles.positions(), detail::columns_of(particles[strength]), mesh, execution);
   }
   template <int D, class P, class V, class S, Execution E = OpenMP>
   void m2p(const Field<V, D, S>& mesh, Particles<D, P>& particles, Attribute<V> value, const E& execution = {}) {
     const Particles<D, P>& constant = particles;
-    m2p(mesh, constant.positions(), columns(particles[value]), execution);
+    m2p(mesh, constant.positions(), detail::columns_of(particles[value]), execution);
   }
   template <int D, class P, class V, class S, Execution E = OpenMP>
   Coverage p2m_renormalised(const Particles<D, P>& particles, Attribute<V> value, Field<V, D, S>& mesh,
                             const RenormalisedParams<V>& params = {}, const E& execution = {}) {
-    return p2m_renormalised(particles.positions(), columns(particles[value]), mesh, params, execution);
+    return p2m_renormalised(particles.positions(), detail::columns_of(particles[value]), mesh, params, execution);
   }
 
  private:
@@ -220,15 +232,6 @@ class Interpolator {
     static_assert(Components<V>::count == C, "cambium: particles and mesh must have the same number of components");
     static_assert(std::is_same_v<ScalarOf<V>, T>, "cambium: particles and mesh must hold the same scalar type");
   }
-  template <class T>
-  static Columns<1, T> columns(std::span<T> scalar) {
-    return Columns<1, T>(scalar);
-  }
-  template <int C, class T>
-  static Columns<C, T> columns(Columns<C, T> vector) {
-    return vector;
-  }
-
   /// Divides the first components by the last, node by node.
   template <class Sums, class V>
   static void quotient(const Sums& sum, V& value, const RenormalisedParams<V>& params, Coverage& coverage) {

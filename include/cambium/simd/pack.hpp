@@ -89,6 +89,9 @@ class Pack {
   friend Pack operator*(const Pack& a, const Pack& b) {
     return build([&](std::size_t i) { return Part(a.part_[i] * b.part_[i]); });
   }
+  friend Pack operator/(const Pack& a, const Pack& b) {
+    return build([&](std::size_t i) { return Part(a.part_[i] / b.part_[i]); });
+  }
   /// a * b + c
   friend Pack fma(const Pack& a, const Pack& b, const Pack& c) {
     return build([&](std::size_t i) {
@@ -123,6 +126,16 @@ class Pack {
         return Part(xsimd::max(a.part_[i], b.part_[i]));
       } else {
         return a.part_[i] > b.part_[i] ? a.part_[i] : b.part_[i];
+      }
+    });
+  }
+  /// `then` in the lanes where a == b, `otherwise` in the others.
+  friend Pack where_equal(const Pack& a, const Pack& b, const Pack& then, const Pack& otherwise) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::select(a.part_[i] == b.part_[i], then.part_[i], otherwise.part_[i]));
+      } else {
+        return a.part_[i] == b.part_[i] ? then.part_[i] : otherwise.part_[i];
       }
     });
   }
