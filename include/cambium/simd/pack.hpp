@@ -5,7 +5,18 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+
+// The compiler's own AVX-512 functions start from a register they leave undefined on purpose, of which g++ 12 warns
+// (GCC bug 105593).
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <xsimd/xsimd.hpp>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 namespace cambium::simd {
 
