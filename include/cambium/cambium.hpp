@@ -11,4 +11,5 @@
 #include <cambium/parallel.hpp>
 #include <cambium/particles.hpp>
 #include <cambium/poisson.hpp>
+#include <cambium/simd.hpp>
 #include <cambium/time.hpp>
