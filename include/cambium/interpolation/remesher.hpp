@@ -87,10 +87,7 @@ class Remesher<Kernel, Split, E> {
     const Particles<D, P>& before = particles;
     (detail::require_finite(detail::columns_of(before[strengths])), ...);
     auto& plan = plans_.template get<detail::SplitPlan<Kernel, T, P, D, (Components<V>::count + ...)>>(lattice);
-    plan.find_displacements(before.positions(), execution_);
-    plan.read(before, strengths...);
-    plan.run(execution_);
-    return plan.write(particles, execution_, strengths...);
+    return plan(particles, execution_, strengths...);
   }
 
  private:

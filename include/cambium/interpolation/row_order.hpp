@@ -53,6 +53,21 @@ class CellRows {
   Index<D> cells_;
 };
 
+/// True if particles [begin, end) have finite positions, inside the box along bounded axes; branch-free.
+template <int D, class P>
+bool positions_valid(const Domain<D>& domain, Columns<D, const P> x, std::size_t begin, std::size_t end) {
+  bool valid = true;
+  for (int d = 0; d < D; ++d) {
+    const P* column = x.column(d).data();
+    const P lo = domain.periodic[d] ? std::numeric_limits<P>::lowest() : static_cast<P>(domain.box.lo[d]);
+    const P hi = domain.periodic[d] ? std::numeric_limits<P>::max() : static_cast<P>(domain.box.hi[d]);
+    int outside = 0;  // comparisons with NaN are false
+    for (std::size_t p = begin; p < end; ++p) outside += !((column[p] >= lo) & (column[p] <= hi));
+    valid &= outside == 0;
+  }
+  return valid;
+}
+
 /// Stable order of particles by rows of cells: found to be there already, or made by a counting sort.
 class RowOrder {
  public:
@@ -64,7 +79,8 @@ class RowOrder {
     const Domain<D>& domain = lattice.domain();
     resize(x.size(), cells.count());
     for_each_piece(execution, size_, piece_, [&](std::size_t begin, std::size_t end) {
-      valid_[begin / piece_] = number_rows(domain, cells, x, begin, end);
+      valid_[begin / piece_] = positions_valid(domain, x, begin, end);
+      if (valid_[begin / piece_]) number_rows(cells, x, begin, end);
     });
     if (std::find(valid_.begin(), valid_.end(), 0) != valid_.end()) {
       for (std::size_t p = 0; p < x.size(); ++p) require_inside(domain, x[p], p);
@@ -120,9 +136,9 @@ class RowOrder {
   template <Execution E>
   void arrange(const E& execution) {
     for_each_piece(execution, size_, piece_, [&](std::size_t begin, std::size_t end) {
-      bool ascending = true;
+      bool ascending = begin == 0 || row_of_[begin - 1] <= row_of_[begin];
       for (std::size_t p = begin + 1; p < end; ++p) ascending &= row_of_[p - 1] <= row_of_[p];
-      ascending_[begin / piece_] = ascending && (begin == 0 || row_of_[begin - 1] <= row_of_[begin]);
+      ascending_[begin / piece_] = ascending;
     });
     sorted_ = std::find(ascending_.begin(), ascending_.end(), 0) == ascending_.end();
     if (sorted_) {
@@ -132,40 +148,19 @@ class RowOrder {
     }
   }
 
-  /// Rows of particles [begin, end); true if all positions are valid.
+  /// Rows of particles [begin, end).
   template <class K, class P, int D>
-  bool number_rows(const Domain<D>& domain, const CellRows<K, P, D>& cells, Columns<D, const P> x, std::size_t begin,
-                   std::size_t end) {
+  void number_rows(const CellRows<K, P, D>& cells, Columns<D, const P> x, std::size_t begin, std::size_t end) {
     constexpr std::size_t lanes = simd::native_lanes<P>;
     using V = simd::Pack<P, lanes>;
-    std::array<V, D> lowest, highest, nothing;
-    lowest.fill(V(std::numeric_limits<P>::max()));
-    highest.fill(V(std::numeric_limits<P>::lowest()));
-    nothing.fill(V(P(0)));
     for (std::size_t p = begin; p < end; p += lanes) {
       const std::size_t count = std::min(lanes, end - p);
       std::array<V, D> at;
-      for (int d = 0; d < D; ++d) {
-        at[d] = load(x.column(d).data() + p, count);
-        lowest[d] = min(lowest[d], at[d]);
-        highest[d] = max(highest[d], at[d]);
-        nothing[d] = fma(at[d], V(P(0)), nothing[d]);  // becomes NaN if a coordinate is not finite
-      }
+      for (int d = 0; d < D; ++d) at[d] = load(x.column(d).data() + p, count);
       alignas(64) P row[lanes];
       cells.row(at).store(row);
       for (std::size_t l = 0; l < count; ++l) row_of_[p + l] = static_cast<std::uint32_t>(row[l]);
     }
-    bool valid = true;
-    for (int d = 0; d < D; ++d) {
-      alignas(64) P lo[lanes], hi[lanes];
-      lowest[d].store(lo);
-      highest[d].store(hi);
-      valid &= sum(nothing[d]) == P(0);
-      if (domain.periodic[d]) continue;
-      valid &= *std::min_element(lo, lo + lanes) >= domain.box.lo[d] &&
-               *std::max_element(hi, hi + lanes) <= domain.box.hi[d];
-    }
-    return valid;
   }
 
   /// `count` values, the rest of the lanes filled with the first one.

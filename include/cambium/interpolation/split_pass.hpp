@@ -4,181 +4,161 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include <cambium/interpolation/closure.hpp>
-#include <cambium/parallel/execution.hpp>
 
 namespace cambium::detail {
 
+/// Layout of `lines` lines of equal length side by side: entry i of line l is at i * along + l * across. One of the
+/// strides is 1.
+struct LineTile {
+  std::ptrdiff_t lines;
+  std::ptrdiff_t along;
+  std::ptrdiff_t across;
+};
+
 /// One pass of a split remeshing: moves strengths along lines of one axis by a displacement and remeshes each line.
 ///
-/// Passes follow one another along the last, ..., first axis. A pass carries the displacements along the axes still to
-/// come with it, as values (renormalised by the sum of the weights), so that the passes compose to the whole
-/// displacement: there is no splitting error that an ordering after Strang would have to cancel, and the order of
-/// accuracy is that of the kernel. Every line must stay ordered, i.e. the displacement may shear but not fold:
-/// 1 + d(displacement)/dx > 0 along each axis in turn, as under a Lagrangian CFL number below 1.
+/// Passes follow one another along different axes. A pass carries the displacements along the axes still to come with
+/// it, as values (renormalised by the sum of the weights), so that the passes compose to the whole displacement: there
+/// is no splitting error that an ordering after Strang would have to cancel. Every line must stay ordered, i.e. the
+/// displacement may shear but not fold: 1 + d(displacement)/dx > 0 along each axis in turn, as under a Lagrangian CFL
+/// number below 1.
 ///
 /// Lines that lie side by side are the lanes of a vector. Neighbours nearly always move by the same whole number of
-/// cells, so that a tap is one aligned multiply-add for all lanes; where they differ, lanes are masked.
+/// cells or by one more, so that with one tap more a tap is one aligned multiply-add for all lanes.
 template <class K, class T, int Strengths, int Carried>
 class SplitPass {
  public:
-  static constexpr int fields = Strengths + Carried + (Carried > 0 ? 1 : 0);
+  static constexpr int moved = Strengths + Carried;
+  static constexpr int fields = moved + (Carried > 0 ? 1 : 0);
   static constexpr std::size_t support = K::support;
-
-  /// `lines` lines of `nodes` entries: entry i of line l is at offset l_offset + i * stride.
-  struct Shape {
-    std::ptrdiff_t nodes;
-    std::ptrdiff_t stride;
-    std::ptrdiff_t lane_stride;
-  };
+  static constexpr std::size_t wide = simd::native_lanes<T>;
+  /// A node that gets less than this sum of weights has lost its particles.
+  static constexpr T smallest_weight = T(0.1);
 
   template <int D>
   SplitPass(const Lattice<D>& lattice, int axis)
-      : close_(lattice, axis), axis_(axis), shape_(shape(lattice, axis)), size_(lattice.size()) {
-    last_cell_ = static_cast<T>(cells_along<K>(lattice, axis) - 1);
-    rows_ = static_cast<std::ptrdiff_t>(lattice.size()) / shape_.nodes;
-    period_of_lanes_ = axis == 0 ? rows_ : shape_.stride;
+      : close_(lattice, axis), axis_(axis), last_cell_(static_cast<T>(cells_along<K>(lattice, axis) - 1)) {}
+
+  /// Values of scratch that a call needs.
+  std::size_t scratch_size() const {
+    return static_cast<std::size_t>(close_.nodes()) * static_cast<std::size_t>(fields + moved + 1) * wide;
   }
 
-  /// \param displacement along the axis, in spacings
-  /// \param in,out        strengths, then displacements to carry; out is overwritten
-  /// \throws ValueError if the displacement leaves a node without particles, or particles go beyond a bounded face
-  template <Execution E>
-  void operator()(const T* displacement, const std::array<const T*, Strengths + Carried>& in,
-                  const std::array<T*, Strengths + Carried>& out, const E& execution) {
-    if (period_of_lanes_ >= static_cast<std::ptrdiff_t>(wide)) {
-      run<wide>(displacement, in, out, execution);
-    } else {
-      run<1>(displacement, in, out, execution);
+  /// \param displacement along the axis, in spacings, laid out as `from` says
+  /// \param in           strengths, then displacements to carry, laid out as `from` says
+  /// \param out          the same after the move, laid out as `to` says; must not overlap the input
+  /// \param scratch      aligned, of scratch_size()
+  /// \throws ValueError if carried displacements reach a node with a sum of weights below smallest_weight
+  void operator()(const LineTile& from, const T* displacement, const std::array<const T*, moved>& in,
+                  const LineTile& to, const std::array<T*, moved>& out, T* scratch) const {
+    const auto lanes = static_cast<std::ptrdiff_t>(wide);
+    if (from.lines < lanes) {
+      for (std::ptrdiff_t l = 0; l < from.lines; ++l) move<1>(l, from, displacement, in, to, out, scratch);
+      return;
+    }
+    for (std::ptrdiff_t l = 0; l < from.lines; l += lanes) {
+      // The last group is moved back to be full: some lines are done twice, alike.
+      move<wide>(std::min(l, from.lines - lanes), from, displacement, in, to, out, scratch);
     }
   }
 
  private:
-  static constexpr std::size_t wide = simd::native_lanes<T>;
-
-  template <int D>
-  static Shape shape(const Lattice<D>& lattice, int axis) {
-    std::ptrdiff_t stride = 1;
-    for (int d = 0; d < axis; ++d) stride *= lattice.nodes()[d];
-    return {lattice.nodes()[axis], stride, axis == 0 ? lattice.nodes()[0] : 1};
-  }
-  /// Offset of line l: lines are numbered with the axes other than this one, the first of them fastest.
-  std::ptrdiff_t offset(std::ptrdiff_t l) const {
-    if (axis_ == 0) return l * shape_.nodes;
-    return l % shape_.stride + l / shape_.stride * shape_.stride * shape_.nodes;
-  }
-
-  template <std::size_t L, Execution E>
-  void run(const T* displacement, const std::array<const T*, Strengths + Carried>& in,
-           const std::array<T*, Strengths + Carried>& out, const E& execution) {
-    const auto lanes = static_cast<std::ptrdiff_t>(L);
-    const std::ptrdiff_t groups_per_period = (period_of_lanes_ + lanes - 1) / lanes;
-    const std::ptrdiff_t groups = rows_ / period_of_lanes_ * groups_per_period;
-    const auto nodes = static_cast<std::size_t>(shape_.nodes);
-    const std::size_t sums = nodes * fields * L;
-    const std::size_t lines = axis_ == 0 ? nodes * (1 + Strengths + Carried) * L : 0;
-    const auto workers = static_cast<std::size_t>(execution.count());
-    const std::size_t share = sums + lines + 64;
-    if (scratch_.size() < workers * share) scratch_.resize(workers * share);
-    for_each_piece_by_worker(
-        execution, static_cast<std::size_t>(groups), 8, [&](std::size_t worker, std::size_t begin, std::size_t end) {
-          T* scratch = scratch_.data() + worker * share / 64 * 64;
-          for (auto g = static_cast<std::ptrdiff_t>(begin); g < static_cast<std::ptrdiff_t>(end); ++g) {
-            // The last group of a period is moved back to be full; its lines are done twice alike.
-            const std::ptrdiff_t in_period = std::min(g % groups_per_period * lanes, period_of_lanes_ - lanes);
-            const std::ptrdiff_t line = g / groups_per_period * period_of_lanes_ + in_period;
-            move_lines<L>(offset(line), displacement, in, out, scratch, scratch + sums);
-          }
-        });
-  }
-
-  /// Moves L lines side by side.
   template <std::size_t L>
-  void move_lines(std::ptrdiff_t first, const T* displacement, const std::array<const T*, Strengths + Carried>& in,
-                  const std::array<T*, Strengths + Carried>& out, T* sum, T* line) const {
-    const std::ptrdiff_t n = shape_.nodes;
+  using Lanes = simd::Pack<T, L>;
+
+  /// Moves L lines from line l on.
+  template <std::size_t L>
+  void move(std::ptrdiff_t l, const LineTile& from, const T* displacement, const std::array<const T*, moved>& in,
+            const LineTile& to, const std::array<T*, moved>& out, T* scratch) const {
+    const std::ptrdiff_t n = close_.nodes();
+    T* sum = scratch;
+    T* line = scratch + static_cast<std::size_t>(n) * fields * L;
     std::fill_n(sum, static_cast<std::size_t>(n) * fields * L, T(0));
-    std::array<const T*, 1 + Strengths + Carried> from;
-    from[0] = displacement + first;
-    for (std::size_t m = 0; m < in.size(); ++m) from[m + 1] = in[m] + first;
-    std::ptrdiff_t step = shape_.stride;
-    if (L > 1 && axis_ == 0) {
-      for (std::size_t m = 0; m < from.size(); ++m) {
-        T* to = line + m * static_cast<std::size_t>(n) * L;
-        transpose_in<L>(from[m], to);
-        from[m] = to;
+    std::array<const T*, moved + 1> source;
+    source[0] = displacement + l * from.across;
+    for (std::size_t m = 0; m < moved; ++m) source[m + 1] = in[m] + l * from.across;
+    std::ptrdiff_t step = from.along;
+    if (L > 1 && from.across != 1) {
+      for (std::size_t m = 0; m <= moved; ++m, line += static_cast<std::size_t>(n) * L) {
+        interleave<L>(source[m], from.across, line);
+        source[m] = line;
       }
       step = static_cast<std::ptrdiff_t>(L);
     }
-    for (std::ptrdiff_t i = 0; i < n; ++i) scatter<L>(i, from, i * step, sum);
+    for (std::ptrdiff_t i = 0; i < n; ++i) scatter<L>(i, source, i * step, sum);
     if constexpr (Carried > 0) renormalise<L>(sum);
-    for (std::size_t m = 0; m < out.size(); ++m) write<L>(sum, m, out[m] + first);
+    for (std::size_t m = 0; m < moved; ++m) write<L>(sum + m * L, to, out[m] + l * to.across);
   }
-
+  /// L rows of contiguous entries -> entries of all L rows side by side.
   template <std::size_t L>
-  void transpose_in(const T* from, T* to) const {
-    for (std::size_t l = 0; l < L; ++l) {
-      const T* row = from + static_cast<std::ptrdiff_t>(l) * shape_.lane_stride;
-      for (std::ptrdiff_t i = 0; i < shape_.nodes; ++i)
-        to[i * static_cast<std::ptrdiff_t>(L) + static_cast<std::ptrdiff_t>(l)] = row[i];
+  void interleave(const T* row, std::ptrdiff_t across, T* line) const {
+    for (std::size_t l = 0; l < L; ++l, row += across) {
+      for (std::ptrdiff_t i = 0; i < close_.nodes(); ++i) line[static_cast<std::size_t>(i) * L + l] = row[i];
     }
   }
   template <std::size_t L>
-  void write(const T* sum, std::size_t m, T* out) const {
-    if (L > 1 && axis_ == 0) {
-      for (std::size_t l = 0; l < L; ++l) {
-        T* row = out + static_cast<std::ptrdiff_t>(l) * shape_.lane_stride;
-        for (std::ptrdiff_t i = 0; i < shape_.nodes; ++i)
-          row[i] = sum[(static_cast<std::size_t>(i) * fields + m) * L + l];
+  void write(const T* sum, const LineTile& to, T* out) const {
+    const auto n = static_cast<std::size_t>(close_.nodes());
+    if (L > 1 && to.across != 1) {
+      for (std::size_t l = 0; l < L; ++l, out += to.across) {
+        for (std::size_t i = 0; i < n; ++i) out[i] = sum[i * fields * L + l];
       }
     } else {
-      for (std::ptrdiff_t i = 0; i < shape_.nodes; ++i) {
-        simd::Pack<T, L>::load_aligned(sum + (static_cast<std::size_t>(i) * fields + m) * L)
-            .store(out + i * shape_.stride);
-      }
+      for (std::size_t i = 0; i < n; ++i, out += to.along) Lanes<L>::load_aligned(sum + i * fields * L).store(out);
     }
   }
 
   /// Gives entry i of L lines to the nodes around where it has gone.
   template <std::size_t L>
-  void scatter(std::ptrdiff_t i, const std::array<const T*, 1 + Strengths + Carried>& from, std::ptrdiff_t at,
-               T* sum) const {
-    using V = simd::Pack<T, L>;
-    const V u = V::load(from[0] + at) + V(static_cast<T>(i) + static_cast<T>(Taps<K>::shift));
+  void scatter(std::ptrdiff_t i, const std::array<const T*, moved + 1>& source, std::ptrdiff_t at, T* sum) const {
+    using V = Lanes<L>;
+    const V u = V::load(source[0] + at) + V(static_cast<T>(i) + static_cast<T>(Taps<K>::shift));
     V cell = floor(u);
     if (!close_.periodic()) cell = max(min(cell, V(last_cell_)), V(T(0)));
-    const V g = u - cell - V(T(0.5));
     V value[fields];
-    for (std::size_t m = 0; m + 1 < from.size(); ++m) value[m] = V::load(from[m + 1] + at);
-    if constexpr (Carried > 0) value[fields - 1] = V(T(1));
+    for (std::size_t m = 0; m < moved; ++m) value[m] = V::load(source[m + 1] + at);
+    if constexpr (Carried > 0) value[moved] = V(T(1));
     V weight[support];
-    weigh<L>(g, weight);
+    weigh<L>(u - cell - V(T(0.5)), weight);
+    const T lowest = lowest_lane(cell);
+    const auto node = static_cast<std::ptrdiff_t>(lowest) - Taps<K>::before;
+    if (all_equal(cell, V(lowest))) {
+      add<L, support>(node, weight, value, sum);
+    } else if (all_equal(max(cell, V(lowest + T(1))), V(lowest + T(1)))) {
+      V wider[support + 1];  // weights of the lanes that are one cell further, moved by one tap
+      wider[0] = where_equal(cell, V(lowest), weight[0], V(T(0)));
+      for (std::size_t k = 1; k < support; ++k) wider[k] = where_equal(cell, V(lowest), weight[k], weight[k - 1]);
+      wider[support] = where_equal(cell, V(lowest), V(T(0)), weight[support - 1]);
+      add<L, support + 1>(node, wider, value, sum);
+    } else {
+      add_each_cell<L>(cell, weight, value, sum);
+    }
+  }
+  /// The general case: one cell after another, with the weights of lanes in other cells set to zero.
+  template <std::size_t L>
+  void add_each_cell(const Lanes<L>& cell, const Lanes<L> (&weight)[support], const Lanes<L> (&value)[fields],
+                     T* sum) const {
     alignas(64) T cells[L];
     cell.store_aligned(cells);
-    const auto [low, high] = std::minmax_element(cells, cells + L);
-    for (T c = *low;; c += T(1)) {  // once, but where lanes move by different numbers of cells
-      if (*low != *high) {
-        V masked[support];
-        for (std::size_t k = 0; k < support; ++k) masked[k] = where_equal(cell, V(c), weight[k], V(T(0)));
-        add<L>(static_cast<std::ptrdiff_t>(c) - Taps<K>::before, masked, value, sum);
-      } else {
-        add<L>(static_cast<std::ptrdiff_t>(c) - Taps<K>::before, weight, value, sum);
-      }
-      if (!(c < *high)) break;
+    std::sort(cells, cells + L);
+    const T* end = std::unique(cells, cells + L);
+    for (const T* c = cells; c < end; ++c) {
+      Lanes<L> masked[support];
+      for (std::size_t k = 0; k < support; ++k) masked[k] = where_equal(cell, Lanes<L>(*c), weight[k], Lanes<L>(T(0)));
+      add<L, support>(static_cast<std::ptrdiff_t>(*c) - Taps<K>::before, masked, value, sum);
     }
   }
   template <std::size_t L>
-  static void weigh(const simd::Pack<T, L>& g, simd::Pack<T, L> (&weight)[support]) {
-    using V = simd::Pack<T, L>;
+  static void weigh(const Lanes<L>& g, Lanes<L> (&weight)[support]) {
     if constexpr (Taps<K>::polynomial) {
       for (std::size_t k = 0; k < support; ++k) {
-        V w(static_cast<T>(Taps<K>::coefficients.value[Taps<K>::degree][k]));
-        for (int j = Taps<K>::degree - 1; j >= 0; --j)
-          w = fma(w, g, V(static_cast<T>(Taps<K>::coefficients.value[j][k])));
+        Lanes<L> w(static_cast<T>(Taps<K>::coefficients.value[Taps<K>::degree][k]));
+        for (int j = Taps<K>::degree - 1; j >= 0; --j) {
+          w = fma(w, g, Lanes<L>(static_cast<T>(Taps<K>::coefficients.value[j][k])));
+        }
         weight[k] = w;
       }
     } else {
@@ -188,66 +168,55 @@ class SplitPass {
         Taps<K>::weights(offset[l], lane);
         for (std::size_t k = 0; k < support; ++k) all[k][l] = lane[k];
       }
-      for (std::size_t k = 0; k < support; ++k) weight[k] = V::load(all[k]);
+      for (std::size_t k = 0; k < support; ++k) weight[k] = Lanes<L>::load(all[k]);
     }
   }
-  template <std::size_t L>
-  void add(std::ptrdiff_t node, const simd::Pack<T, L> (&weight)[support], const simd::Pack<T, L> (&value)[fields],
-           T* sum) const {
-    if (node >= 0 && node + static_cast<std::ptrdiff_t>(support) <= shape_.nodes) {
-      for (std::size_t k = 0; k < support; ++k) add_to<L>(sum, node + static_cast<std::ptrdiff_t>(k), weight[k], value);
+  template <std::size_t L, std::size_t Count>
+  void add(std::ptrdiff_t node, const Lanes<L> (&weight)[Count], const Lanes<L> (&value)[fields], T* sum) const {
+    const std::ptrdiff_t n = close_.nodes();
+    if (node >= 0 && node + static_cast<std::ptrdiff_t>(Count) <= n) {
+      T* at = sum + static_cast<std::size_t>(node) * fields * L;
+      for (std::size_t k = 0; k < Count; ++k, at += fields * L) add_to<L>(at, weight[k], value);
       return;
     }
-    for (std::size_t k = 0; k < support; ++k) {
+    for (std::size_t k = 0; k < Count; ++k) {
       std::ptrdiff_t i = node + static_cast<std::ptrdiff_t>(k);
-      if (close_.periodic())
-        i -= shape_.nodes *
-             static_cast<std::ptrdiff_t>(std::floor(static_cast<double>(i) / static_cast<double>(shape_.nodes)));
+      if (close_.periodic()) i = (i % n + n) % n;
       close_(i, [&](std::ptrdiff_t to, double w) {
-        add_to<L>(sum, to, weight[k] * simd::Pack<T, L>(static_cast<T>(w)), value);
+        add_to<L>(sum + static_cast<std::size_t>(to) * fields * L, weight[k] * Lanes<L>(static_cast<T>(w)), value);
       });
     }
   }
   template <std::size_t L>
-  static void add_to(T* sum, std::ptrdiff_t node, const simd::Pack<T, L>& weight,
-                     const simd::Pack<T, L> (&value)[fields]) {
-    using V = simd::Pack<T, L>;
-    T* at = sum + static_cast<std::size_t>(node) * fields * L;
-    for (std::size_t m = 0; m < fields; ++m)
-      fma(weight, value[m], V::load_aligned(at + m * L)).store_aligned(at + m * L);
+  static void add_to(T* at, const Lanes<L>& weight, const Lanes<L> (&value)[fields]) {
+    for (std::size_t m = 0; m < moved; ++m) {
+      fma(weight, value[m], Lanes<L>::load_aligned(at + m * L)).store_aligned(at + m * L);
+    }
+    if constexpr (Carried > 0) (weight + Lanes<L>::load_aligned(at + moved * L)).store_aligned(at + moved * L);
   }
   /// Carried values := sums / sum of weights.
   template <std::size_t L>
   void renormalise(T* sum) const {
-    using V = simd::Pack<T, L>;
-    V lowest(T(1));
-    for (std::ptrdiff_t i = 0; i < shape_.nodes; ++i) {
-      T* at = sum + static_cast<std::size_t>(i) * fields * L;
-      const V weight = V::load_aligned(at + (fields - 1) * L);
+    Lanes<L> lowest(T(1));
+    T* at = sum;
+    for (std::ptrdiff_t i = 0; i < close_.nodes(); ++i, at += fields * L) {
+      const Lanes<L> weight = Lanes<L>::load_aligned(at + moved * L);
       lowest = min(lowest, weight);
-      const V inverse = V(T(1)) / weight;
-      for (std::size_t m = Strengths; m + 1 < fields; ++m)
-        (V::load_aligned(at + m * L) * inverse).store_aligned(at + m * L);
+      const Lanes<L> inverse = Lanes<L>(T(1)) / weight;
+      for (std::size_t m = Strengths; m < moved; ++m) {
+        (Lanes<L>::load_aligned(at + m * L) * inverse).store_aligned(at + m * L);
+      }
     }
-    alignas(64) T lane[L];
-    lowest.store_aligned(lane);
-    const T worst = *std::min_element(lane, lane + L);
+    const T worst = lowest_lane(lowest);
     if (worst >= smallest_weight) return;
     throw ValueError(message("split remeshing along axis ", axis_, " leaves a node with a sum of weights of ", worst,
                              " (1 for particles at rest): the particles have moved too far apart or past each other; "
                              "remesh after a shorter step, or use the strategy Tensor"));
   }
 
-  static constexpr T smallest_weight = T(0.1);
-
   Closure<K> close_;
   int axis_;
-  Shape shape_;
-  std::size_t size_;
-  T last_cell_{};
-  std::ptrdiff_t rows_ = 0;
-  std::ptrdiff_t period_of_lanes_ = 1;
-  AlignedVector<T> scratch_;
+  T last_cell_;
 };
 
 }  // namespace cambium::detail

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
 #include <cambium/interpolation/interpolator.hpp>
 #include <cambium/interpolation/place_particles.hpp>
@@ -14,94 +14,50 @@
 
 namespace cambium::detail {
 
-/// The passes of a split remeshing of C strength components, last axis first, and their arrays.
+/// Split remeshing of C strength components of particles that left the nodes of a lattice, in two stages.
+///
+/// In 3D the first stage takes planes of constant axis 1, moves them along axis 2 and then axis 0 while they are in
+/// cache; in 2D it takes strips of columns and moves them along axis 1. The second stage moves planes (3D) or strips
+/// of rows (2D) along the axis that is left and writes the new particles. Planes and strips are spread over threads.
 template <class K, class T, class P, int D, int C>
 class SplitPlan {
  public:
   explicit SplitPlan(const Lattice<D>& lattice)
-      : engine{lattice}, first_(lattice, D - 1), second_(lattice, D > 1 ? D - 2 : 0), third_(lattice, 0) {
-    for (auto& array : displacement_) array.resize(lattice.size());
-    for (auto& array : buffer_) array.resize(lattice.size());
-    for (auto& array : result_) array.resize(lattice.size());
+      : engine{lattice}, nodes_{1, 1, 1}, first_(lattice, D - 1), middle_(lattice, 0), last_(lattice, D == 3 ? 1 : 0) {
+    for (int d = 0; d < D; ++d) nodes_[d] = lattice.nodes()[d];
+    for (auto& array : between_) array.resize(D > 1 ? lattice.size() : 0);
   }
 
-  /// Displacements in spacings of particles from their nodes, along the shortest way on periodic axes.
-  /// \throws PositionError for a particle that is not finite or outside a bounded box
-  template <Execution E>
-  void find_displacements(Columns<D, const P> x, const E& execution) {
-    const Lattice<D>& lattice = engine.on;
-    for_each_piece(execution, x.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      Index<D> node = lattice.node(begin);
-      for (std::size_t p = begin; p < end; ++p) {
-        for (int d = 0; d < D; ++d)
-          displacement_[d][p] = static_cast<T>(displacement(lattice, x.column(d)[p], d, node[d]));
-        int d = 0;
-        while (d < D && ++node[d] == lattice.nodes()[d]) node[d++] = 0;
-      }
-      for (std::size_t p = begin; p < end; ++p) check(lattice, x, p);
-    });
-  }
-
-  template <class... V>
-  void read(const Particles<D, P>& particles, Attribute<V>... strengths) {
-    int next = 0;
-    const auto take = [&](const auto& columns) {
-      for (int c = 0; c < columns.count; ++c) strength_[next++] = columns.column(c).data();
-    };
-    (take(columns_of(particles[strengths])), ...);
-  }
-
-  template <Execution E>
-  void run(const E& execution) {
-    std::array<const T*, C + D - 1> in{};
-    std::array<T*, C + D - 1> out{};
-    for (int c = 0; c < C; ++c) in[c] = strength_[c];
-    for (int d = 0; d + 1 < D; ++d) in[C + d] = displacement_[d].data();
-    for (std::size_t m = 0; m < out.size(); ++m) out[m] = buffer_[m].data();
-    if constexpr (D == 1) {
-      first_(displacement_[0].data(), in, results(), execution);
-    } else if constexpr (D == 2) {
-      first_(displacement_[1].data(), in, out, execution);
-      second_(out[C], strengths(out), results(), execution);
-    } else {
-      first_(displacement_[2].data(), in, out, execution);
-      std::array<const T*, C + 1> carried{};
-      std::array<T*, C + 1> next{};
-      for (int m = 0; m <= C; ++m) carried[m] = out[m];
-      for (int c = 0; c < C; ++c) next[c] = result_[c].data();
-      next[C] = displacement_[0].data();
-      second_(out[C + 1], carried, next, execution);
-      std::array<const T*, C> last{};
-      for (int c = 0; c < C; ++c) last[c] = next[c];
-      std::array<T*, C> final{};
-      for (int c = 0; c < C; ++c) final[c] = buffer_[c].data();
-      third_(next[C], last, final, execution);
-      for (int c = 0; c < C; ++c) std::swap(buffer_[c], result_[c]);
-    }
-  }
-
+  /// Replaces the particles. \throws PositionError, ValueError with the particles unchanged
   template <Execution E, class... V>
-  RemeshReport<V...> write(Particles<D, P>& particles, const E& execution, Attribute<V>... strengths) {
+  RemeshReport<V...> operator()(Particles<D, P>& particles, const E& execution, Attribute<V>... attributes) {
     const Lattice<D>& lattice = engine.on;
+    const Particles<D, P>& before = particles;
+    validate(before.positions(), execution);
+    prepare(execution);
+    Source source{before.positions(), {}};
+    collect(source.strength, columns_of(before[attributes])...);
+    if constexpr (D > 1) {
+      const std::ptrdiff_t tiles = D == 3 ? nodes_[1] : (nodes_[0] + strip - 1) / strip;
+      for_each_piece_by_worker(execution, static_cast<std::size_t>(tiles), 1,
+                               [&](std::size_t w, std::size_t tile, std::size_t) {
+                                 first_stage(source, static_cast<std::ptrdiff_t>(tile), workers_[w]);
+                               });
+    } else {
+      displace_row(source.x.column(0).data(), 0, 0, lattice.size(), workers_[0].data());
+      for (int c = 0; c < C; ++c) std::copy_n(source.strength[c], lattice.size(), local(workers_[0], 1 + c));
+    }
     if (particles.names().size() != sizeof...(V)) {
       particles.resize(0);
       particles.resize(lattice.size());
     }
-    for_each_piece(execution, lattice.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      place_positions(particles.positions(), lattice, begin, begin, end, [](std::size_t) { return true; });
-    });
-    int next = 0;
-    const auto give = [&](const auto& columns) {
-      for (int c = 0; c < columns.count; ++c, ++next) {
-        const auto column = columns.column(c);
-        for_each_piece(execution, lattice.size(), 4096, [&](std::size_t begin, std::size_t end) {
-          std::copy(result_[next].begin() + static_cast<std::ptrdiff_t>(begin),
-                    result_[next].begin() + static_cast<std::ptrdiff_t>(end),
-                    column.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::array<T*, C> result{};
+    collect(result, columns_of(particles[attributes])...);
+    const std::ptrdiff_t tiles = D == 3 ? nodes_[2] : D == 2 ? (nodes_[1] + strip - 1) / strip : 1;
+    for_each_piece_by_worker(
+        execution, static_cast<std::size_t>(tiles), 1, [&](std::size_t w, std::size_t tile, std::size_t) {
+          second_stage(static_cast<std::ptrdiff_t>(tile), result, particles.positions(), workers_[w]);
         });
-      }
-    };
-    (give(columns_of(particles[strengths])), ...);
     RemeshReport<V...> report;
     report.created = lattice.size();
     return report;
@@ -110,35 +66,131 @@ class SplitPlan {
   OnLattice<D> engine;
 
  private:
-  static double displacement(const Lattice<D>& lattice, double x, int d, std::ptrdiff_t node) {
-    double u = (x - lattice.box().lo[d]) / lattice.spacing() - static_cast<double>(node);
-    if (lattice.periodic(d)) {
-      const auto n = static_cast<double>(lattice.nodes()[d]);
-      u -= n * std::round(u / n);
+  static constexpr std::ptrdiff_t strip = 64;
+  static constexpr int carried = D - 1;
+  static constexpr int locals = 2 * (C + carried) + 1;
+
+  struct Source {
+    Columns<D, const P> x;
+    std::array<const T*, C> strength;
+  };
+
+  template <Execution E>
+  void validate(Columns<D, const P> x, const E& execution) const {
+    const Domain<D>& domain = engine.on.domain();
+    for_each_piece(execution, x.size(), 16384, [&](std::size_t begin, std::size_t end) {
+      if (positions_valid(domain, x, begin, end)) return;
+      for (std::size_t p = begin; p < end; ++p) require_inside(domain, x[p], p);
+    });
+  }
+  /// Each thread's arrays: the tile before and after its first move, then scratch of a pass.
+  template <Execution E>
+  void prepare(const E& execution) {
+    rows_ = D == 3 ? nodes_[2] : D == 2 ? nodes_[1] : 1;
+    // Eight more than the columns of a tile: rows do not all fall into one set of the cache.
+    pitch_ = (D == 2 ? strip : nodes_[0]) + 8;
+    const std::size_t scratch = std::max({first_.scratch_size(), middle_.scratch_size(), last_.scratch_size()});
+    const std::size_t size = (static_cast<std::size_t>(rows_ * pitch_) * locals + 63) / 64 * 64 + scratch;
+    if (workers_.size() < static_cast<std::size_t>(execution.count())) {
+      workers_.resize(static_cast<std::size_t>(execution.count()));
     }
-    return u;
+    for (auto& worker : workers_) worker.resize(size);
   }
-  static void check(const Lattice<D>& lattice, Columns<D, const P> x, std::size_t p) {
-    require_inside(lattice.domain(), x[p], p);
+  T* local(AlignedVector<T>& worker, int m) const { return worker.data() + rows_ * pitch_ * m; }
+  T* scratch(AlignedVector<T>& worker) const {
+    return worker.data() + (static_cast<std::size_t>(rows_ * pitch_) * locals + 63) / 64 * 64;
   }
-  std::array<T*, C> results() {
-    std::array<T*, C> result{};
-    for (int c = 0; c < C; ++c) result[c] = result_[c].data();
-    return result;
-  }
-  static std::array<const T*, C> strengths(const std::array<T*, C + D - 1>& all) {
-    std::array<const T*, C> result{};
-    for (int c = 0; c < C; ++c) result[c] = all[c];
-    return result;
+  template <class Pointer, class... Views>
+  static void collect(std::array<Pointer, C>& pointers, const Views&... views) {
+    int next = 0;
+    const auto take = [&](const auto& view) {
+      for (int c = 0; c < view.count; ++c) pointers[next++] = view.column(c).data();
+    };
+    (take(views), ...);
   }
 
+  /// Displacements in spacings of particles from consecutive nodes of a row, the shortest way on periodic axes.
+  void displace_row(const P* x, int axis, std::ptrdiff_t node, std::size_t count, T* displacement) const {
+    const Lattice<D>& lattice = engine.on;
+    const double lo = lattice.box().lo[axis];
+    const double per_spacing = 1.0 / lattice.spacing();
+    const double n = lattice.periodic(axis) ? static_cast<double>(nodes_[axis]) : 0.0;
+    const double per_period = lattice.periodic(axis) ? 1.0 / n : 0.0;
+    const double step = axis == 0 ? 1.0 : 0.0;
+    const auto first = static_cast<double>(node);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double u = (x[i] - lo) * per_spacing - (first + step * static_cast<double>(static_cast<int>(i)));
+      displacement[i] = static_cast<T>(u - n * std::floor(u * per_period + 0.5));
+    }
+  }
+
+  /// 3D: plane y of all x and z, along axes 2 and 0. 2D: columns of a strip, along axis 1.
+  void first_stage(const Source& source, std::ptrdiff_t tile, AlignedVector<T>& worker) requires(D > 1) {
+    constexpr int moving = D - 1;
+    const std::ptrdiff_t x0 = D == 2 ? tile * strip : 0;
+    const std::ptrdiff_t columns = D == 2 ? std::min(strip, nodes_[0] - x0) : nodes_[0];
+    const auto at = [&](std::ptrdiff_t row) {
+      return D == 2 ? row * nodes_[0] + x0 : (row * nodes_[1] + tile) * nodes_[0];
+    };
+    // Local arrays: displacement along the moving axis; strengths; displacements along the others, next axis first.
+    for (std::ptrdiff_t row = 0; row < rows_; ++row) {
+      const std::ptrdiff_t from = at(row);
+      const auto count = static_cast<std::size_t>(columns);
+      for (int d = 0; d < D; ++d) {
+        const int m = d == moving ? 0 : 1 + C + d;
+        const std::ptrdiff_t node = d == 0 ? x0 : d == moving ? row : tile;
+        displace_row(source.x.column(d).data() + from, d, node, count, local(worker, m) + row * pitch_);
+      }
+      for (int c = 0; c < C; ++c) std::copy_n(source.strength[c] + from, count, local(worker, 1 + c) + row * pitch_);
+    }
+    std::array<const T*, C + carried> in;
+    std::array<T*, C + carried> out;
+    for (int m = 0; m < C + carried; ++m) {
+      in[m] = local(worker, 1 + m);
+      out[m] = D == 2 ? between_[m].data() + x0 : local(worker, 1 + C + carried + m);
+    }
+    const LineTile inner{columns, pitch_, 1};
+    if constexpr (D == 2) {
+      first_(inner, local(worker, 0), in, {columns, nodes_[0], 1}, out, scratch(worker));
+    } else {
+      first_(inner, local(worker, 0), in, inner, out, scratch(worker));
+      std::array<const T*, C + 1> next_in;
+      std::array<T*, C + 1> next_out;
+      for (int m = 0; m <= C; ++m) {
+        next_in[m] = out[m == C ? C + 1 : m];
+        next_out[m] = between_[m].data() + tile * nodes_[0];
+      }
+      middle_({rows_, 1, pitch_}, out[C], next_in, {rows_, 1, nodes_[0] * nodes_[1]}, next_out, scratch(worker));
+    }
+  }
+
+  /// 3D: plane z, along axis 1. 2D: rows of a strip, along axis 0. 1D: the line. Then the new positions.
+  void second_stage(std::ptrdiff_t tile, const std::array<T*, C>& result, Columns<D, P> positions,
+                    AlignedVector<T>& worker) {
+    const std::ptrdiff_t rows = D == 2 ? std::min(strip, nodes_[1] - tile * strip) : D == 3 ? nodes_[1] : 1;
+    const std::ptrdiff_t from = D == 2 ? tile * strip * nodes_[0] : D == 3 ? tile * nodes_[0] * nodes_[1] : 0;
+    std::array<const T*, C> in;
+    std::array<T*, C> out;
+    for (int c = 0; c < C; ++c) {
+      in[c] = D == 1 ? local(worker, 1 + c) : between_[c].data() + from;
+      out[c] = result[c] + from;
+    }
+    const T* displacement = D == 1 ? local(worker, 0) : between_[D == 1 ? 0 : C].data() + from;
+    const LineTile layout = D == 3 ? LineTile{nodes_[0], nodes_[0], 1} : LineTile{rows, 1, nodes_[0]};
+    last_(layout, displacement, in, layout, out, scratch(worker));
+    const auto first = static_cast<std::size_t>(from);
+    place_positions(positions, engine.on, first, first, first + static_cast<std::size_t>(rows * nodes_[0]),
+                    [](std::size_t) { return true; });
+  }
+
+  std::array<std::ptrdiff_t, 3> nodes_;
+  std::ptrdiff_t rows_ = 1;
+  std::ptrdiff_t pitch_ = 1;
   SplitPass<K, T, C, D - 1> first_;
-  SplitPass<K, T, C, D == 3 ? 1 : 0> second_;
-  SplitPass<K, T, C, 0> third_;
-  std::array<const T*, C> strength_{};
-  std::array<AlignedVector<T>, D> displacement_;
-  std::array<AlignedVector<T>, C + D - 1> buffer_;
-  std::array<AlignedVector<T>, C> result_;
+  SplitPass<K, T, C, 1> middle_;
+  SplitPass<K, T, C, 0> last_;
+  std::array<AlignedVector<T>, C + 1> between_;
+  std::vector<AlignedVector<T>> workers_;
 };
 
 }  // namespace cambium::detail

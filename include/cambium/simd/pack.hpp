@@ -150,6 +150,26 @@ class Pack {
       }
     });
   }
+  /// True if a == b in every lane.
+  friend bool all_equal(const Pack& a, const Pack& b) {
+    bool equal = true;
+    for (std::size_t i = 0; i < count; ++i) {
+      if constexpr (width > 1) {
+        equal = equal && xsimd::all(a.part_[i] == b.part_[i]);
+      } else {
+        equal = equal && a.part_[i] == b.part_[i];
+      }
+    }
+    return equal;
+  }
+  /// Smallest of all lanes.
+  friend T lowest_lane(const Pack& a) {
+    alignas(64) T lane[N];
+    a.store(lane);
+    T lowest = lane[0];
+    for (std::size_t l = 1; l < N; ++l) lowest = lane[l] < lowest ? lane[l] : lowest;
+    return lowest;
+  }
   /// Sum of all lanes.
   friend T sum(const Pack& a) {
     Part total = a.part_[0];
