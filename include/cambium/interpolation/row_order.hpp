@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <cambium/core/aligned.hpp>
 #include <cambium/core/columns.hpp>
 #include <cambium/interpolation/axis.hpp>
 #include <cambium/parallel/execution.hpp>
