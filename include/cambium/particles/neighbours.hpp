@@ -104,12 +104,15 @@ class Neighbours {
     for (int d = 0; d < D; ++d) farthest += domain().box.extent()[d] + std::abs(x[d] - domain().box.centre()[d]);
     for (double reach = radius_; size() > 0; reach *= 2.0) {
       double least = reach * reach;
-      search_within(x, 0, reach, [&](std::size_t s, const Vec<D>& r) {
-        const std::size_t q = order()[s];
-        const double square = dot(r, r);
-        if (q == excluded || square > least || (square == least && best && q > best->particle)) return;
-        least = square;
-        best = Found{q, r};
+      for_each_run(x, 0, reach, [&](std::size_t begin, std::size_t end, const Vec<D>& shift) {
+        for (std::size_t s = begin; s < end; ++s) {
+          const std::size_t q = order()[s];
+          const Vec<D> r = way(x, s, shift);
+          const double square = dot(r, r);
+          if (q == excluded || square > least || (square == least && best && q > best->particle)) continue;
+          least = square;
+          best = Found{q, r};
+        }
       });
       if (best || reach > farthest) break;
     }
@@ -146,10 +149,11 @@ class Neighbours {
     }
   }
 
-  /// About `cells_per_radius` cells on a radius, but not more cells than particles.
+  /// Two cells on a radius, but not more than one for four particles: finer cells hug the sphere more closely, coarser
+  /// ones have fewer rows to go through. Measured best for radii of 1.5 to 6 particle distances in 2D and 3D.
   static Index<D> choose_cells(const Domain<D>& domain, std::size_t particles, double radius) {
-    constexpr double cells_per_radius = 3.0;
-    const double most = std::max(1.0, static_cast<double>(particles));
+    constexpr double cells_per_radius = 2.0;
+    const double most = std::max(1.0, 0.25 * static_cast<double>(particles));
     Vec<D> cells;
     for (int d = 0; d < D; ++d) {
       cells[d] = std::clamp(std::floor(cells_per_radius / radius * domain.box.extent()[d]), 1.0, most);
@@ -181,18 +185,40 @@ class Neighbours {
   }
 
   /// Calls f(s, r) for every slot s >= first whose particle is within the radius of `at`, a point in the box along
-  /// periodic axes.
+  /// periodic axes. Candidates are sifted in blocks without a branch: about one in two is a hit, which no processor
+  /// predicts.
   template <class F>
   void search(const Vec<D>& at, std::size_t first, F&& f) const {
+    constexpr std::size_t block = 64;
     const double square = radius_ * radius_;
-    search_within(at, first, radius_, [&](std::size_t s, const Vec<D>& r) {
-      if (dot(r, r) <= square && is_nearest_image(at, s, r)) f(s, r);
+    for_each_run(at, first, radius_, [&](std::size_t begin, std::size_t end, const Vec<D>& shift) {
+      for (; begin < end; begin += block) {
+        std::array<std::size_t, block> hit;
+        std::size_t hits = 0;
+        for (std::size_t s = begin; s < std::min(end, begin + block); ++s) {
+          const Vec<D> r = way(at, s, shift);
+          hit[hits] = s;
+          hits += dot(r, r) <= square ? 1 : 0;
+        }
+        for (std::size_t k = 0; k < hits; ++k) {
+          const Vec<D> r = way(at, hit[k], shift);
+          if (is_nearest_image(at, hit[k], r)) f(hit[k], r);
+        }
+      }
     });
   }
 
-  /// Calls f(s, r) for slots s >= first: all within `reach`, some beyond, a slot once for each image that may be.
+  /// Way from `at` to the image of slot s.
+  Vec<D> way(const Vec<D>& at, std::size_t s, const Vec<D>& shift) const {
+    Vec<D> r;
+    for (int d = 0; d < D; ++d) r[d] = position_[d][s] - at[d] + shift[d];
+    return r;
+  }
+
+  /// Calls f(begin, end, shift) for runs of slots >= first that hold all particles within `reach` of `at`, and others;
+  /// `shift` leads to the image that is meant.
   template <class F>
-  void search_within(const Vec<D>& at, std::size_t first, double reach, F&& f) const {
+  void for_each_run(const Vec<D>& at, std::size_t first, double reach, F&& f) const {
     if (size() > 0) visit<D - 1>(at, first, 0, Vec<D>{}, (reach + slack_) * (reach + slack_), f);
   }
 
@@ -216,8 +242,8 @@ class Neighbours {
       const std::size_t cell = row * static_cast<std::size_t>(n) + static_cast<std::size_t>(i - image * n);
       if constexpr (A == 0) {
         const std::ptrdiff_t next = std::min(end, (image + 1) * n);
-        scan(at, std::max<std::size_t>(first, order_.starts()[cell]),
-             order_.starts()[cell + static_cast<std::size_t>(next - i)], shift, f);
+        f(std::max<std::size_t>(first, order_.starts()[cell]),
+          std::size_t{order_.starts()[cell + static_cast<std::size_t>(next - i)]}, std::as_const(shift));
         i = next;
       } else {
         const double below = lo + static_cast<double>(i) * grid.edge()[A] - at[A];
@@ -234,15 +260,6 @@ class Neighbours {
     const bool periodic = domain().periodic[axis];
     return static_cast<std::ptrdiff_t>(
         std::clamp(order_.grid().coordinate(axis, x), periodic ? -n : 0.0, periodic ? 2.0 * n - 1.0 : n - 1.0));
-  }
-
-  template <class F>
-  void scan(const Vec<D>& at, std::size_t begin, std::size_t end, const Vec<D>& shift, F& f) const {
-    for (std::size_t s = begin; s < end; ++s) {
-      Vec<D> r;
-      for (int d = 0; d < D; ++d) r[d] = position_[d][s] - at[d] + shift[d];
-      f(s, r);
-    }
   }
 
   /// With a radius of half a period a particle can be within reach through two images: the one of Domain::difference
