@@ -47,6 +47,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(every_node_in_memory_is_visited_once, C, Cases) {
     for_each_node(
         field,
         [&](const Index<D>& node, double& value) {
+          if (!lattice.contains(node)) return;  // seen by padding_is_left_alone
           ++visits[lattice.number(node)];
           value = static_cast<double>(lattice.number(node));
         },
