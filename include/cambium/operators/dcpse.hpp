@@ -237,8 +237,9 @@ class DCPSE {
       for_each_piece(execution, pending.size(), 64, [&](std::size_t begin, std::size_t end) {
         detail::MomentSystem<D, Derivative + Order - 1> system;
         std::vector<Vec<D>> r;
-        for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t i = begin; i < end; ++i) {
           fill(rows[pending[i]], neighbours, pending[i], reach, operators, system, r);
+        }
       });
       std::erase_if(pending, [&](std::size_t p) { return !rows[p].weight.empty(); });
       if (!pending.empty() && widening >= params_.max_widening) {

@@ -39,14 +39,14 @@ struct DiffusionWeight {
 template <class W, class K, int D>
 class PairWeight {
  public:
-  explicit PairWeight(double epsilon) : inverse_square_(1.0 / (epsilon * epsilon)), scale_(1.0) {
+  explicit PairWeight(double epsilon) : inverse_square_(1.0 / (epsilon * epsilon)) {
     for (int i = 0; i < D + W::powers; ++i) scale_ /= epsilon;
   }
   double operator()(const Vec<D>& r) const { return scale_ * W::template at<K, D>(dot(r, r) * inverse_square_); }
 
  private:
   double inverse_square_;
-  double scale_;
+  double scale_ = 1.0;
 };
 
 template <class K, int D>
