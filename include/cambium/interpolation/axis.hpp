@@ -45,14 +45,14 @@ class AxisLocator {
 
   /// Position in spacings from the first node plus the kernel's shift, wrapped on periodic axes.
   template <class V>
-  V reduce(const V& x) const {
+  [[gnu::always_inline]] V reduce(const V& x) const {
     using std::floor;
     const V u = (x - V(lo_)) * V(inverse_spacing_) + V(static_cast<T>(Taps<K>::shift));
     return u - V(period_) * floor(u * V(inverse_period_));
   }
   /// Cell of a reduced position.
   template <class V>
-  V cell(const V& reduced) const {
+  [[gnu::always_inline]] V cell(const V& reduced) const {
     using std::floor;
     using std::max;
     using std::min;

@@ -137,9 +137,9 @@ class RowOrder {
   template <Execution E>
   void arrange(const E& execution) {
     for_each_piece(execution, size_, piece_, [&](std::size_t begin, std::size_t end) {
-      bool ascending = begin == 0 || row_of_[begin - 1] <= row_of_[begin];
-      for (std::size_t p = begin + 1; p < end; ++p) ascending &= row_of_[p - 1] <= row_of_[p];
-      ascending_[begin / piece_] = ascending;
+      unsigned descents = begin > 0 && row_of_[begin - 1] > row_of_[begin];
+      for (std::size_t p = begin + 1; p < end; ++p) descents += row_of_[p - 1] > row_of_[p];
+      ascending_[begin / piece_] = descents == 0;
     });
     sorted_ = std::find(ascending_.begin(), ascending_.end(), 0) == ascending_.end();
     if (sorted_) {
@@ -153,14 +153,17 @@ class RowOrder {
   template <class K, class P, int D>
   void number_rows(const CellRows<K, P, D>& cells, Columns<D, const P> x, std::size_t begin, std::size_t end) {
     constexpr std::size_t lanes = simd::native_lanes<P>;
+    constexpr std::size_t block = 64;
     using V = simd::Pack<P, lanes>;
-    for (std::size_t p = begin; p < end; p += lanes) {
-      const std::size_t count = std::min(lanes, end - p);
-      std::array<V, D> at;
-      for (int d = 0; d < D; ++d) at[d] = load(x.column(d).data() + p, count);
-      alignas(64) P row[lanes];
-      cells.row(at).store(row);
-      for (std::size_t l = 0; l < count; ++l) row_of_[p + l] = static_cast<std::uint32_t>(row[l]);
+    alignas(64) P row[block];
+    for (std::size_t p = begin; p < end; p += block) {
+      const std::size_t count = std::min(block, end - p);
+      for (std::size_t i = 0; i < count; i += lanes) {
+        std::array<V, D> at;
+        for (int d = 0; d < D; ++d) at[d] = load(x.column(d).data() + p + i, std::min(lanes, count - i));
+        cells.row(at).store_aligned(row + i);
+      }
+      for (std::size_t i = 0; i < count; ++i) row_of_[p + i] = static_cast<std::uint32_t>(row[i]);
     }
   }
 
@@ -180,6 +183,7 @@ class RowOrder {
     for_each_piece(execution, size_, piece_, [&](std::size_t begin, std::size_t end) {
       std::size_t next = begin == 0 ? 0 : row_of_[begin - 1] + std::size_t{1};
       for (std::size_t p = begin; p < end; ++p) {
+        if (row_of_[p] + std::size_t{1} == next) continue;
         while (next <= row_of_[p]) first_[next++] = static_cast<std::uint32_t>(p);
       }
     });

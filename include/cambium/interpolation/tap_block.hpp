@@ -35,7 +35,7 @@ class RotatedTaps {
       }
     }
   }
-  Lanes operator()(T g) const {
+  [[gnu::always_inline]] Lanes operator()(T g) const {
     if constexpr (Taps<K>::polynomial) {
       const Lanes at(g);
       Lanes sum = Lanes::load_aligned(coefficient_.back().data());
@@ -107,13 +107,13 @@ class TapBlock {
  private:
   using Lanes = simd::Pack<P, lanes>;
 
-  static Lanes load(const P* x, std::size_t i, std::size_t count) {
+  [[gnu::always_inline]] static Lanes load(const P* x, std::size_t i, std::size_t count) {
     if (i + lanes <= count) return Lanes::load(x + i);
     P buffer[lanes];
     for (std::size_t l = 0; l < lanes; ++l) buffer[l] = x[i + l < count ? i + l : i];
     return Lanes::load(buffer);
   }
-  static void store(const Lanes& values, T* to) {
+  [[gnu::always_inline]] static void store(const Lanes& values, T* to) {
     if constexpr (std::is_same_v<T, P>) {
       values.store_aligned(to);
     } else {
@@ -123,14 +123,15 @@ class TapBlock {
     }
   }
   /// Offsets along an axis on which the cell is known.
-  void locate_known(int axis, const P* x, std::size_t count, std::ptrdiff_t cell_of_row, T* g) const {
+  [[gnu::always_inline]] void locate_known(int axis, const P* x, std::size_t count, std::ptrdiff_t cell_of_row,
+                                           T* g) const {
     const Lanes middle_of_cell(static_cast<P>(cell_of_row) + P(0.5));
     for (std::size_t i = 0; i < count; i += lanes) {
       store(axis_[axis].reduce(load(x, i, count)) - middle_of_cell, g + i);
     }
   }
   /// Weights of all taps at the offsets g.
-  static void weigh(const T* g, T (*weight)[capacity], std::size_t padded) {
+  [[gnu::always_inline]] static void weigh(const T* g, T (*weight)[capacity], std::size_t padded) {
     if constexpr (Taps<K>::polynomial) {
       using V = simd::Pack<T, lanes>;
       for (std::size_t i = 0; i < padded; i += lanes) {

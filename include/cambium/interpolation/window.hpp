@@ -103,23 +103,28 @@ class Spread {
   static constexpr std::size_t lanes = tap_lanes<K>;
   static constexpr std::size_t support = K::support;
   static constexpr std::size_t middle_taps = D == 3 ? support : 1;
+  static constexpr auto capacity = static_cast<std::ptrdiff_t>(Block::capacity);
   static constexpr bool pairs = support > 4;
 
   /// Particles i, ..., i + N - 1, whose first columns are those of particle i or one further.
   template <std::size_t N>
-  void add(std::size_t i, const std::array<const T*, C>& strength, const std::array<T*, C>& row) const {
+  [[gnu::always_inline]] void add(std::size_t i, const std::array<const T*, C>& strength,
+                                  const std::array<T*, C>& row) const {
     constexpr std::size_t columns = support + N - 1;
     Lanes slow[N];
     Lanes middle[N][middle_taps];
     const T* fast[N];
     for (std::size_t n = 0; n < N; ++n) {
       slow[n] = last_(block_.offset[i + n]);
-      fast[n] = block_.fast[Block::slack] + (i + n);
-      if (block_.cell[i + n] != block_.cell[i]) fast[n] -= Block::capacity;
+      // One column further: the taps, too, are one place further, and a zero comes first. No branch: it would be a
+      // coin.
+      const std::ptrdiff_t further = block_.cell[i + n] != block_.cell[i];
+      fast[n] = block_.fast[Block::slack] + static_cast<std::ptrdiff_t>(i + n) - further * capacity;
       if constexpr (D == 3) {
         for (std::size_t j = 0; j < support; ++j) middle[n][j] = Lanes(block_.middle[j][i + n]);
       }
     }
+    const std::ptrdiff_t pitch = pitch_;  // a member would be read again after every store
     for (int c = 0; c < C; ++c) {
       Lanes scaled[N];
       for (std::size_t n = 0; n < N; ++n) scaled[n] = slow[n] * Lanes(strength[c][i + n]);
@@ -127,12 +132,13 @@ class Spread {
       for (std::size_t k = 0; k < columns; ++k, column += lanes) {
         Lanes along[N];
         for (std::size_t n = 0; n < N; ++n) along[n] = scaled[n] * Lanes(fast[n][k * Block::capacity]);
-        add_column<N>(along, middle, column);
+        add_column<N>(along, middle, column, pitch);
       }
     }
   }
   template <std::size_t N>
-  void add_column(const Lanes (&along)[N], const Lanes (&middle)[N][middle_taps], T* node) const {
+  [[gnu::always_inline]] static void add_column(const Lanes (&along)[N], const Lanes (&middle)[N][middle_taps], T* node,
+                                                std::ptrdiff_t pitch) {
     for (std::size_t j = 0; j < middle_taps; ++j) {
       Lanes sum = Lanes::load_aligned(node);
       for (std::size_t n = 0; n < N; ++n) {
@@ -143,7 +149,7 @@ class Spread {
         }
       }
       sum.store_aligned(node);
-      node = simd::keep_in_register(node + pitch_);
+      node = simd::keep_in_register(node + pitch);
     }
   }
 
@@ -175,16 +181,17 @@ class Collect {
   static constexpr std::size_t lanes = tap_lanes<K>;
   static constexpr std::size_t support = K::support;
 
-  Lanes plane(const Lanes (&fast)[support], std::size_t i, const T* node) const {
+  [[gnu::always_inline]] Lanes plane(const Lanes (&fast)[support], std::size_t i, const T* node) const {
     if constexpr (D == 2) return line(fast, node);
+    const std::ptrdiff_t pitch = pitch_;
     Lanes total(T(0));
     for (std::size_t j = 0; j < support; ++j) {
       total = fma(line(fast, node), Lanes(block_.middle[j][i]), total);
-      node = simd::keep_in_register(node + pitch_);
+      node = simd::keep_in_register(node + pitch);
     }
     return total;
   }
-  static Lanes line(const Lanes (&fast)[support], const T* node) {
+  [[gnu::always_inline]] static Lanes line(const Lanes (&fast)[support], const T* node) {
     Lanes total = Lanes::load_aligned(node) * fast[0];
     for (std::size_t k = 1; k < support; ++k) total = fma(Lanes::load_aligned(node + k * lanes), fast[k], total);
     return total;
