@@ -123,7 +123,7 @@ class Sweep {
   }
 
   Window<K, T, D, C> window_;
-  RotatedTaps<K, T> last_;
+  LastTaps<K, T> last_;
   Block block_;
 };
 

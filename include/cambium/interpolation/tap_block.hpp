@@ -17,12 +17,18 @@ inline constexpr std::size_t tap_lanes = K::support <= 4   ? 4
                                          : K::support <= 8 ? 8
                                                            : 16;
 
-/// Taps of one axis as one pack, tap k in lane (rotation + k) mod lanes, by Horner's rule across the lanes.
+/// True if two neighbouring nodes of a window, tap_lanes each, fit one hardware vector: columns are then worked on in
+/// pairs, unaligned, which halves the number of instructions.
 template <class K, class T>
+inline constexpr bool columns_in_pairs = 2 * tap_lanes<K> <= simd::native_lanes<T>;
+
+/// Taps of one axis as one pack, tap k in lane (rotation + k) mod tap_lanes, by Horner's rule across the lanes; with
+/// Repeat = 2, the same taps twice.
+template <class K, class T, std::size_t Repeat = 1>
 class RotatedTaps {
  public:
   static constexpr std::size_t lanes = tap_lanes<K>;
-  using Lanes = simd::Pack<T, lanes>;
+  using Lanes = simd::Pack<T, Repeat * lanes>;
 
   void rotate(std::size_t rotation) {
     rotation_ = rotation % lanes;
@@ -30,7 +36,9 @@ class RotatedTaps {
       for (auto& row : coefficient_) row.fill(T(0));
       for (std::size_t j = 0; j < coefficient_.size(); ++j) {
         for (std::size_t k = 0; k < K::support; ++k) {
-          coefficient_[j][(rotation_ + k) % lanes] = static_cast<T>(Taps<K>::coefficients.value[j][k]);
+          for (std::size_t r = 0; r < Repeat; ++r) {
+            coefficient_[j][r * lanes + (rotation_ + k) % lanes] = static_cast<T>(Taps<K>::coefficients.value[j][k]);
+          }
         }
       }
     }
@@ -46,8 +54,10 @@ class RotatedTaps {
     } else {
       T weight[K::support];
       Taps<K>::weights(g, weight);
-      alignas(64) T rotated[lanes] = {};
-      for (std::size_t k = 0; k < K::support; ++k) rotated[(rotation_ + k) % lanes] = weight[k];
+      alignas(64) T rotated[Repeat * lanes] = {};
+      for (std::size_t k = 0; k < K::support; ++k) {
+        for (std::size_t r = 0; r < Repeat; ++r) rotated[r * lanes + (rotation_ + k) % lanes] = weight[k];
+      }
       return Lanes::load_aligned(rotated);
     }
   }
@@ -55,8 +65,12 @@ class RotatedTaps {
  private:
   static constexpr std::size_t rows = Taps<K>::polynomial ? Taps<K>::degree + 1 : 1;
   std::size_t rotation_ = 0;
-  alignas(64) std::array<std::array<T, lanes>, rows> coefficient_{};
+  alignas(64) std::array<std::array<T, Repeat * lanes>, rows> coefficient_{};
 };
+
+/// The taps of the last axis in the form that Spread and Collect take.
+template <class K, class T>
+using LastTaps = RotatedTaps<K, T, columns_in_pairs<K, T> ? 2 : 1>;
 
 /// Stencils of up to 64 particles of one row of cells, found lane by lane over the particles.
 ///
@@ -80,10 +94,11 @@ class TapBlock {
   /// \param row   cell of all of them along axes 1, ..., D - 1; along axis 0, the cell that counts as 0
   void locate(const std::array<const P*, D>& x, std::size_t count, const Index<D>& row) {
     const std::size_t padded = (count + lanes - 1) / lanes * lanes;
+    const AxisLocator<K, P> axis = axis_[0];  // a copy: members would be read again after every store
     alignas(64) P scratch[capacity];
     for (std::size_t i = 0; i < padded; i += lanes) {
-      const Lanes u = axis_[0].reduce(load(x[0], i, count));
-      const Lanes c = axis_[0].cell(u);
+      const Lanes u = axis.reduce(load(x[0], i, count));
+      const Lanes c = axis.cell(u);
       store(u - c - Lanes(P(0.5)), first_ + i);
       c.store_aligned(scratch + i);
     }
@@ -123,11 +138,12 @@ class TapBlock {
     }
   }
   /// Offsets along an axis on which the cell is known.
-  [[gnu::always_inline]] void locate_known(int axis, const P* x, std::size_t count, std::ptrdiff_t cell_of_row,
+  [[gnu::always_inline]] void locate_known(int d, const P* x, std::size_t count, std::ptrdiff_t cell_of_row,
                                            T* g) const {
+    const AxisLocator<K, P> axis = axis_[d];
     const Lanes middle_of_cell(static_cast<P>(cell_of_row) + P(0.5));
     for (std::size_t i = 0; i < count; i += lanes) {
-      store(axis_[axis].reduce(load(x, i, count)) - middle_of_cell, g + i);
+      store(axis.reduce(load(x, i, count)) - middle_of_cell, g + i);
     }
   }
   /// Weights of all taps at the offsets g.

@@ -37,7 +37,8 @@ class Window {
     columns_ = static_cast<std::size_t>(cells[0]) + support - 1;
     rows_ = D == 2 ? 1 : static_cast<std::size_t>(cells[1]) + support - 1;
     pitch_ = padded_pitch(columns_);
-    const std::size_t size = C * rows_ * pitch_ * lanes;
+    // One node more: a pair of columns may reach one beyond the last row, with weight zero.
+    const std::size_t size = (C * rows_ * pitch_ + 1) * lanes;
     if (nodes_.size() < size) nodes_.resize(size);
     std::fill_n(nodes_.begin(), size, T(0));
   }
@@ -69,42 +70,49 @@ class Window {
 
 /// Adds the strengths of a block of particles to the window: node += strength w(fast) w(middle) w(last).
 ///
-/// With more than four taps the stores bound the loop, so that two neighbours whose stencils differ by at most one
-/// column go together: one column more, half of the stores.
+/// Where a node fills a hardware vector, the stores bound the loop: two neighbours whose stencils differ by at most one
+/// column go together, with one column more and half of the stores. Where a node fills half a vector, columns go in
+/// pairs; such stores overlap those of the neighbours misaligned, and a load from two stores under way would stall, so
+/// that particles are visited eight apart.
 template <class K, class T, class P, int D, int C>
 class Spread {
  public:
   using Block = TapBlock<K, T, P, D>;
-  using Lanes = simd::Pack<T, tap_lanes<K>>;
 
-  Spread(const Block& block, const RotatedTaps<K, T>& last, std::ptrdiff_t pitch)
+  Spread(const Block& block, const LastTaps<K, T>& last, std::ptrdiff_t pitch)
       : block_(block), last_(last), pitch_(pitch * static_cast<std::ptrdiff_t>(lanes)) {}
 
   /// \param strength  one pointer for each component, at the block's first particle
   /// \param row       first stencil row of each component in the window
   void operator()(const std::array<const T*, C>& strength, std::size_t count, const std::array<T*, C>& row) const {
+    if constexpr (columns_in_pairs<K, T>) {
+      for (std::size_t start = 0; start < apart; ++start) {
+        for (std::size_t i = start; i < count; i += apart) add<1>(i, strength, row);
+      }
+      return;
+    }
     std::size_t i = 0;
-    if constexpr (pairs) {
-      while (i + 1 < count) {
-        const std::int32_t gap = block_.cell[i + 1] - block_.cell[i];
-        if (gap >= 0 && gap <= static_cast<std::int32_t>(lanes)) {
-          add<2>(i, strength, row);
-          i += 2;
-        } else {
-          add<1>(i, strength, row);
-          ++i;
-        }
+    while (support > 4 && i + 1 < count) {
+      const std::int32_t gap = block_.cell[i + 1] - block_.cell[i];
+      if (gap >= 0 && gap <= static_cast<std::int32_t>(lanes)) {
+        add<2>(i, strength, row);
+        i += 2;
+      } else {
+        add<1>(i, strength, row);
+        ++i;
       }
     }
     for (; i < count; ++i) add<1>(i, strength, row);
   }
 
  private:
+  using Lanes = typename LastTaps<K, T>::Lanes;
   static constexpr std::size_t lanes = tap_lanes<K>;
   static constexpr std::size_t support = K::support;
   static constexpr std::size_t middle_taps = D == 3 ? support : 1;
+  static constexpr std::size_t apart = 8;
+  static constexpr std::size_t step = columns_in_pairs<K, T> ? 2 : 1;
   static constexpr auto capacity = static_cast<std::ptrdiff_t>(Block::capacity);
-  static constexpr bool pairs = support > 4;
 
   /// Particles i, ..., i + N - 1, whose first columns are those of particle i or one further.
   template <std::size_t N>
@@ -129,18 +137,26 @@ class Spread {
       Lanes scaled[N];
       for (std::size_t n = 0; n < N; ++n) scaled[n] = slow[n] * Lanes(strength[c][i + n]);
       T* column = row[c] + block_.cell[i];
-      for (std::size_t k = 0; k < columns; ++k, column += lanes) {
+      for (std::size_t k = 0; k < columns; k += step, column += step * lanes) {
         Lanes along[N];
-        for (std::size_t n = 0; n < N; ++n) along[n] = scaled[n] * Lanes(fast[n][k * Block::capacity]);
+        for (std::size_t n = 0; n < N; ++n) along[n] = scaled[n] * columns_at(fast[n] + k * Block::capacity);
         add_column<N>(along, middle, column, pitch);
       }
+    }
+  }
+  /// Weight of one column in all lanes, or of two in half of the lanes each.
+  [[gnu::always_inline]] static Lanes columns_at(const T* fast) {
+    if constexpr (step == 2) {
+      return Lanes::halves(fast[0], fast[capacity]);
+    } else {
+      return Lanes(fast[0]);
     }
   }
   template <std::size_t N>
   [[gnu::always_inline]] static void add_column(const Lanes (&along)[N], const Lanes (&middle)[N][middle_taps], T* node,
                                                 std::ptrdiff_t pitch) {
     for (std::size_t j = 0; j < middle_taps; ++j) {
-      Lanes sum = Lanes::load_aligned(node);
+      Lanes sum = load(node);
       for (std::size_t n = 0; n < N; ++n) {
         if constexpr (D == 3) {
           sum = fma(along[n], middle[n][j], sum);
@@ -148,13 +164,20 @@ class Spread {
           sum = sum + along[n];
         }
       }
-      sum.store_aligned(node);
+      if constexpr (step == 2) {
+        sum.store(node);
+      } else {
+        sum.store_aligned(node);
+      }
       node = simd::keep_in_register(node + pitch);
     }
   }
+  [[gnu::always_inline]] static Lanes load(const T* node) {
+    return step == 2 ? Lanes::load(node) : Lanes::load_aligned(node);
+  }
 
   const Block& block_;
-  const RotatedTaps<K, T>& last_;
+  const LastTaps<K, T>& last_;
   std::ptrdiff_t pitch_;
 };
 
@@ -163,25 +186,35 @@ template <class K, class T, class P, int D, int C>
 class Collect {
  public:
   using Block = TapBlock<K, T, P, D>;
-  using Lanes = simd::Pack<T, tap_lanes<K>>;
 
-  Collect(const Block& block, const RotatedTaps<K, T>& last, std::ptrdiff_t pitch)
+  Collect(const Block& block, const LastTaps<K, T>& last, std::ptrdiff_t pitch)
       : block_(block), last_(last), pitch_(pitch * static_cast<std::ptrdiff_t>(lanes)) {}
 
   void operator()(const std::array<T*, C>& value, std::size_t count, const std::array<const T*, C>& row) const {
     for (std::size_t i = 0; i < count; ++i) {
       const Lanes slow = last_(block_.offset[i]);
-      Lanes fast[support];
-      for (std::size_t k = 0; k < support; ++k) fast[k] = Lanes(block_.fast[Block::slack + k][i]);
+      Lanes fast[groups];
+      for (std::size_t k = 0; k < groups; ++k) {
+        const T* weight = &block_.fast[Block::slack + k * step][i];
+        if constexpr (step == 2) {
+          fast[k] = Lanes::halves(weight[0], weight[Block::capacity]);
+        } else {
+          fast[k] = Lanes(weight[0]);
+        }
+      }
       for (int c = 0; c < C; ++c) value[c][i] = sum(slow * plane(fast, i, row[c] + block_.cell[i]));
     }
   }
 
  private:
+  using Lanes = typename LastTaps<K, T>::Lanes;
   static constexpr std::size_t lanes = tap_lanes<K>;
   static constexpr std::size_t support = K::support;
+  static constexpr std::size_t step = columns_in_pairs<K, T> ? 2 : 1;
+  /// Columns, or pairs of columns, of a stencil; the last pair of an odd support has a column of weight zero.
+  static constexpr std::size_t groups = (support + step - 1) / step;
 
-  [[gnu::always_inline]] Lanes plane(const Lanes (&fast)[support], std::size_t i, const T* node) const {
+  [[gnu::always_inline]] Lanes plane(const Lanes (&fast)[groups], std::size_t i, const T* node) const {
     if constexpr (D == 2) return line(fast, node);
     const std::ptrdiff_t pitch = pitch_;
     Lanes total(T(0));
@@ -191,14 +224,17 @@ class Collect {
     }
     return total;
   }
-  [[gnu::always_inline]] static Lanes line(const Lanes (&fast)[support], const T* node) {
-    Lanes total = Lanes::load_aligned(node) * fast[0];
-    for (std::size_t k = 1; k < support; ++k) total = fma(Lanes::load_aligned(node + k * lanes), fast[k], total);
+  [[gnu::always_inline]] static Lanes line(const Lanes (&fast)[groups], const T* node) {
+    Lanes total = load(node) * fast[0];
+    for (std::size_t k = 1; k < groups; ++k) total = fma(load(node + k * step * lanes), fast[k], total);
     return total;
+  }
+  [[gnu::always_inline]] static Lanes load(const T* node) {
+    return step == 2 ? Lanes::load(node) : Lanes::load_aligned(node);
   }
 
   const Block& block_;
-  const RotatedTaps<K, T>& last_;
+  const LastTaps<K, T>& last_;
   std::ptrdiff_t pitch_;
 };
 

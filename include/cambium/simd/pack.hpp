@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -52,6 +53,20 @@ class Pack {
   /// All lanes equal to `value`.
   explicit Pack(T value) {
     for (auto& part : part_) part = Part(value);
+  }
+
+  /// `low` in the first half of the lanes, `high` in the second.
+  static Pack halves(T low, T high) {
+    if constexpr (count > 1) {
+      return build([&](std::size_t i) { return Part(i < count / 2 ? low : high); });
+    } else {
+      alignas(64) static constexpr auto half = [] {
+        std::array<T, N> lane{};
+        for (std::size_t l = N / 2; l < N; ++l) lane[l] = T(1);
+        return lane;
+      }();
+      return where_equal(load_aligned(half.data()), Pack(T(0)), Pack(low), Pack(high));
+    }
   }
 
   static Pack load_aligned(const T* from) {
