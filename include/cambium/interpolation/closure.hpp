@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 
 #include <cambium/core/aligned.hpp>
@@ -51,7 +52,6 @@ template <class K, class T, int D, int C>
 class PlaneCloser {
  public:
   static constexpr std::ptrdiff_t before = Taps<K>::before;
-  static constexpr std::size_t lanes = tap_lanes<K>;
 
   explicit PlaneCloser(const Lattice<D>& lattice)
       : x_(lattice, 0),
@@ -62,7 +62,7 @@ class PlaneCloser {
   /// Number of values in a plane of the lattice.
   std::size_t plane_size() const { return static_cast<std::size_t>(row_size() * (D == 3 ? y_.nodes() : 1)); }
 
-  /// Takes padded row r of component c, rows coming in ascending order: entry i at line[i * lanes].
+  /// Takes padded row r of component c, rows coming in ascending order: entry i at line[i].
   void put(T* plane, std::size_t r, int c, const T* line) {
     if constexpr (D == 2) {
       store(plane + c, line);
@@ -70,11 +70,11 @@ class PlaneCloser {
       const std::ptrdiff_t y = static_cast<std::ptrdiff_t>(r) - before;
       if (y < 0) {
         T* kept = stash_.data() + (static_cast<std::ptrdiff_t>(r) * C + c) * columns_;
-        for (std::ptrdiff_t i = 0; i < columns_; ++i) kept[i] = line[i * stride];
+        std::copy_n(line, columns_, kept);
       } else if (y_.inside(y)) {
         store(plane + y * row_size() + c, line);
       } else {
-        y_(y, [&](std::ptrdiff_t to, double w) { add<stride>(plane + to * row_size() + c, line, static_cast<T>(w)); });
+        y_(y, [&](std::ptrdiff_t to, double w) { add(plane + to * row_size() + c, line, static_cast<T>(w)); });
       }
     }
   }
@@ -85,7 +85,7 @@ class PlaneCloser {
         for (int c = 0; c < C; ++c) {
           const T* kept = stash_.data() + (r * C + c) * columns_;
           y_(r - before,
-             [&](std::ptrdiff_t to, double w) { add<1>(plane + to * row_size() + c, kept, static_cast<T>(w)); });
+             [&](std::ptrdiff_t to, double w) { add(plane + to * row_size() + c, kept, static_cast<T>(w)); });
         }
       }
     }
@@ -101,37 +101,33 @@ class PlaneCloser {
          [&](std::ptrdiff_t from, double w) { f(plane + from * row_size(), w); });
     }
   }
-  /// Copies component c of a row of the lattice into a padded line: entry i at line[i * lanes].
+  /// Copies component c of a row of the lattice into a padded line: entry i at line[i].
   void get(const T* row, int c, T* line) const {
     const std::ptrdiff_t n = x_.nodes();
     const T* from = row + c;
-    for (std::ptrdiff_t i = 0; i < n; ++i) line[(i + before) * stride] = from[i * C];
+    for (std::ptrdiff_t i = 0; i < n; ++i) line[i + before] = from[i * C];
     for_each_end([&](std::ptrdiff_t i) {
       T sum(0);
       x_(i, [&](std::ptrdiff_t node, double w) { sum += static_cast<T>(w) * from[node * C]; });
-      line[(i + before) * stride] = sum;
+      line[i + before] = sum;
     });
   }
   std::ptrdiff_t row_size() const { return x_.nodes() * C; }
 
  private:
-  static constexpr auto stride = static_cast<std::ptrdiff_t>(lanes);
-
   void store(T* out, const T* line) const {
     const std::ptrdiff_t n = x_.nodes();
-    for (std::ptrdiff_t i = 0; i < n; ++i) out[i * C] = line[(i + before) * stride];
-    add_ends<stride>(out, line, T(1));
+    for (std::ptrdiff_t i = 0; i < n; ++i) out[i * C] = line[i + before];
+    add_ends(out, line, T(1));
   }
-  template <std::ptrdiff_t Stride>
   void add(T* out, const T* line, T weight) const {
     const std::ptrdiff_t n = x_.nodes();
-    for (std::ptrdiff_t i = 0; i < n; ++i) out[i * C] += weight * line[(i + before) * Stride];
-    add_ends<Stride>(out, line, weight);
+    for (std::ptrdiff_t i = 0; i < n; ++i) out[i * C] += weight * line[i + before];
+    add_ends(out, line, weight);
   }
-  template <std::ptrdiff_t Stride>
   void add_ends(T* out, const T* line, T weight) const {
     for_each_end([&](std::ptrdiff_t i) {
-      const T value = weight * line[(i + before) * Stride];
+      const T value = weight * line[i + before];
       x_(i, [&](std::ptrdiff_t node, double w) { out[node * C] += static_cast<T>(w) * value; });
     });
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -28,8 +29,9 @@ class DenseEngine {
 
   explicit DenseEngine(const Lattice<D>& lattice) : lattice_(lattice), z_(lattice, last) {
     for (int d = 0; d < D; ++d) cells_[d] = cells_along<K>(lattice, d);
-    height_ = std::max<std::ptrdiff_t>(3 * K::support, (cells_[last] + 63) / 64);
-    slabs_ = static_cast<std::size_t>(std::max<std::ptrdiff_t>(cells_[last] / height_, 1));
+    // Planes shared by two slabs are worked on twice: slabs of at least 4 supports (8 in 2D, where a plane is a row).
+    const std::ptrdiff_t most = cells_[last] / ((D == 2 ? 8 : 4) * K::support);
+    slabs_ = std::bit_floor(static_cast<std::size_t>(std::max<std::ptrdiff_t>(most, 1)));
   }
 
   const Lattice<D>& lattice() const { return lattice_; }
@@ -91,11 +93,14 @@ class DenseEngine {
     const auto count = static_cast<std::size_t>(execution.count());
     while (workers_.size() < count) workers_.push_back(std::make_unique<Worker>(lattice_));
   }
-  /// Cells of slab k; the last slab takes the remainder.
+  /// Cells of slab k, all slabs as equal as can be.
   CellBox<D> slab(std::size_t k) const {
     CellBox<D> box{Index<D>{}, cells_};
-    box.first[last] = static_cast<std::ptrdiff_t>(k) * height_;
-    box.count[last] = k + 1 == slabs_ ? cells_[last] - box.first[last] : height_;
+    const auto bound = [&](std::size_t i) {
+      return static_cast<std::ptrdiff_t>(i) * cells_[last] / static_cast<std::ptrdiff_t>(slabs_);
+    };
+    box.first[last] = bound(k);
+    box.count[last] = bound(k + 1) - bound(k);
     return box;
   }
   auto rows_of(const RowOrder& order) const {
@@ -176,7 +181,6 @@ class DenseEngine {
   Lattice<D> lattice_;
   Closure<K> z_;
   Index<D> cells_;
-  std::ptrdiff_t height_ = 1;
   std::size_t slabs_ = 1;
   std::vector<std::unique_ptr<Worker>> workers_;
   AlignedVector<T> pending_;

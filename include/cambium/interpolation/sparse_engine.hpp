@@ -94,7 +94,6 @@ class SparseEngine {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
   }
   static constexpr std::size_t tile_size = power(static_cast<std::size_t>(padded), D) * C;
-  static constexpr std::size_t lanes = tap_lanes<K>;
 
   /// Padded node of a tile along one axis, and a node of the lattice that it stands for.
   struct Link {
@@ -179,7 +178,7 @@ class SparseEngine {
       void begin(std::size_t) {}
       void row(std::size_t p, std::size_t r, int c, const T* line) {
         T* out = engine.tile_row(k, p, r, c);
-        for (std::size_t i = 0; i < columns; ++i) out[i] = line[i * lanes];
+        std::copy_n(line, columns, out);
       }
       void end(std::size_t) {}
     };
@@ -206,7 +205,7 @@ class SparseEngine {
     const auto columns = static_cast<std::size_t>(box.count[0]) + K::support - 1;
     worker.sweep.collect(box, x, value, rows_of(k, order), [&](std::size_t p, std::size_t r, int c, T* line) {
       const T* in = tile_row(k, p, r, c);
-      for (std::size_t i = 0; i < columns; ++i) line[i * lanes] = in[i];
+      std::copy_n(in, columns, line);
     });
   }
   void collect_tile(LineWorker& worker, std::size_t k, const std::array<const P*, D>& x, const std::array<T*, C>& value,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <cambium/interpolation/window.hpp>
+#include <cambium/simd/lane.hpp>
 
 namespace cambium::detail {
 
@@ -25,11 +26,12 @@ class Sweep {
   explicit Sweep(const Lattice<D>& lattice) : block_(lattice) {}
 
   /// P2M. Padded plane p is complete when sink.begin(p), sink.row(p, r, c, line) for every padded row r in ascending
-  /// order and component c (entry i at line[i * lanes]), and sink.end(p) are called; planes come in ascending order.
+  /// order and component c (entry i at line[i]), and sink.end(p) are called; planes come in ascending order.
   template <class RowOf, class Sink>
   void spread(const CellBox<D>& box, const std::array<const P*, D>& x, const std::array<const T*, C>& strength,
               RowOf&& row_of, Sink&& sink) {
     window_.reset(box.count);
+    line_.resize(window_.columns());
     const auto planes = static_cast<std::size_t>(box.count[D - 1]);
     for (std::size_t s = 0; s < planes + support - 1; ++s) {
       last_.rotate(s);
@@ -42,11 +44,12 @@ class Sweep {
     }
   }
 
-  /// M2P. source(p, r, c, line) fills padded row r of plane p of component c (entry i at line[i * lanes]).
+  /// M2P. source(p, r, c, line) fills padded row r of plane p of component c (entry i at line[i]).
   template <class RowOf, class Source>
   void collect(const CellBox<D>& box, const std::array<const P*, D>& x, const std::array<T*, C>& value, RowOf&& row_of,
                Source&& source) {
     window_.reset(box.count);
+    line_.resize(window_.columns());
     for (std::size_t p = 0; p + 1 < support; ++p) {
       for (std::size_t r = 0; r < window_.rows(); ++r) fill(p, r, source);
     }
@@ -112,17 +115,20 @@ class Sweep {
   template <class Sink>
   void emit(std::size_t plane, std::size_t r, Sink&& sink) {
     for (int c = 0; c < C; ++c) {
-      T* line = window_.row(c, r) + plane % lanes;
-      sink.row(plane, r, c, line);
-      for (std::size_t i = 0; i < window_.columns(); ++i) line[i * lanes] = T(0);
+      simd::take_lane<lanes>(window_.row(c, r), plane % lanes, window_.columns(), line_.data());
+      sink.row(plane, r, c, line_.data());
     }
   }
   template <class Source>
   void fill(std::size_t plane, std::size_t r, Source&& source) {
-    for (int c = 0; c < C; ++c) source(plane, r, c, window_.row(c, r) + plane % lanes);
+    for (int c = 0; c < C; ++c) {
+      source(plane, r, c, line_.data());
+      simd::put_lane<lanes>(line_.data(), plane % lanes, window_.columns(), window_.row(c, r));
+    }
   }
 
   Window<K, T, D, C> window_;
+  AlignedVector<T> line_;
   LastTaps<K, T> last_;
   Block block_;
 };

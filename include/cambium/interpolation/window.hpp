@@ -37,8 +37,8 @@ class Window {
     columns_ = static_cast<std::size_t>(cells[0]) + support - 1;
     rows_ = D == 2 ? 1 : static_cast<std::size_t>(cells[1]) + support - 1;
     pitch_ = padded_pitch(columns_);
-    // One node more: a pair of columns may reach one beyond the last row, with weight zero.
-    const std::size_t size = (C * rows_ * pitch_ + 1) * lanes;
+    // Some nodes more: a pair of columns, or a vector of several nodes, may reach beyond the last row.
+    const std::size_t size = (C * rows_ * pitch_ + 16) * lanes;
     if (nodes_.size() < size) nodes_.resize(size);
     std::fill_n(nodes_.begin(), size, T(0));
   }
