@@ -44,7 +44,7 @@ void place_positions(Columns<D, P> positions, const Lattice<D>& lattice, std::si
     Vec<D> x = lattice.position(node);
     for (; i < row_end; ++i, ++node[0]) {
       if (!kept(i)) continue;
-      x[0] = lattice.box().lo[0] + static_cast<double>(node[0]) * lattice.spacing();
+      x[0] = lattice.position(node)[0];
       for (int d = 0; d < D; ++d) positions.column(d)[p] = static_cast<P>(x[d]);
       ++p;
     }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <cambium/interpolation/interpolator.hpp>
 #include <cambium/interpolation/place_particles.hpp>
@@ -26,6 +27,7 @@ class SplitPlan {
       : engine{lattice}, nodes_{1, 1, 1}, first_(lattice, D - 1), middle_(lattice, 0), last_(lattice, D == 3 ? 1 : 0) {
     for (int d = 0; d < D; ++d) nodes_[d] = lattice.nodes()[d];
     for (auto& array : between_) array.resize(D > 1 ? lattice.size() : 0);
+    for (Index<D> node; node[0] < nodes_[0]; ++node[0]) columns_.push_back(static_cast<P>(lattice.position(node)[0]));
   }
 
   /// Replaces the particles. \throws PositionError, ValueError with the particles unchanged
@@ -86,7 +88,7 @@ class SplitPlan {
   /// Each thread's arrays: the tile before and after its first move, then scratch of a pass.
   template <Execution E>
   void prepare(const E& execution) {
-    rows_ = D == 3 ? nodes_[2] : D == 2 ? nodes_[1] : 1;
+    rows_ = D == 3 ? std::max(nodes_[1], nodes_[2]) : D == 2 ? nodes_[1] : 1;
     // Eight more than the columns of a tile: rows do not all fall into one set of the cache.
     pitch_ = (D == 2 ? strip : nodes_[0]) + 8;
     const std::size_t scratch = std::max({first_.scratch_size(), middle_.scratch_size(), last_.scratch_size()});
@@ -116,12 +118,31 @@ class SplitPlan {
     const double per_spacing = 1.0 / lattice.spacing();
     const double n = lattice.periodic(axis) ? static_cast<double>(nodes_[axis]) : 0.0;
     const double per_period = lattice.periodic(axis) ? 1.0 / n : 0.0;
-    const double step = axis == 0 ? 1.0 : 0.0;
     const auto first = static_cast<double>(node);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double u = (x[i] - lo) * per_spacing - (first + step * static_cast<double>(static_cast<int>(i)));
-      displacement[i] = static_cast<T>(u - n * std::floor(u * per_period + 0.5));
+    constexpr std::size_t lanes = simd::native_lanes<double>;
+    using V = simd::Pack<double, lanes>;
+    alignas(64) double at[lanes], node_at[lanes];
+    for (std::size_t l = 0; l < lanes; ++l) node_at[l] = first + (axis == 0 ? static_cast<double>(l) : 0.0);
+    V nodes = V::load_aligned(node_at);
+    const V step(axis == 0 ? static_cast<double>(lanes) : 0.0);
+    const auto shortest = [&](const V& position) {
+      const V u = (position - V(lo)) * V(per_spacing) - nodes;
+      return u - V(n) * floor(fma(u, V(per_period), V(0.5)));
+    };
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes, nodes = nodes + step) {
+      if constexpr (std::is_same_v<P, double> && std::is_same_v<T, double>) {
+        shortest(V::load(x + i)).store(displacement + i);
+      } else {
+        for (std::size_t l = 0; l < lanes; ++l) at[l] = x[i + l];
+        shortest(V::load_aligned(at)).store_aligned(at);
+        for (std::size_t l = 0; l < lanes; ++l) displacement[i + l] = static_cast<T>(at[l]);
+      }
     }
+    if (i == count) return;
+    for (std::size_t l = 0; l < lanes; ++l) at[l] = x[std::min(i + l, count - 1)];
+    shortest(V::load_aligned(at)).store_aligned(at);
+    for (std::size_t l = 0; i + l < count; ++l) displacement[i + l] = static_cast<T>(at[l]);
   }
 
   /// 3D: plane y of all x and z, along axes 2 and 0. 2D: columns of a strip, along axis 1.
@@ -133,7 +154,7 @@ class SplitPlan {
       return D == 2 ? row * nodes_[0] + x0 : (row * nodes_[1] + tile) * nodes_[0];
     };
     // Local arrays: displacement along the moving axis; strengths; displacements along the others, next axis first.
-    for (std::ptrdiff_t row = 0; row < rows_; ++row) {
+    for (std::ptrdiff_t row = 0; row < nodes_[moving]; ++row) {
       const std::ptrdiff_t from = at(row);
       const auto count = static_cast<std::size_t>(columns);
       for (int d = 0; d < D; ++d) {
@@ -160,7 +181,8 @@ class SplitPlan {
         next_in[m] = out[m == C ? C + 1 : m];
         next_out[m] = between_[m].data() + tile * nodes_[0];
       }
-      middle_({rows_, 1, pitch_}, out[C], next_in, {rows_, 1, nodes_[0] * nodes_[1]}, next_out, scratch(worker));
+      middle_({nodes_[2], 1, pitch_}, out[C], next_in, {nodes_[2], 1, nodes_[0] * nodes_[1]}, next_out,
+              scratch(worker));
     }
   }
 
@@ -171,16 +193,37 @@ class SplitPlan {
     const std::ptrdiff_t from = D == 2 ? tile * strip * nodes_[0] : D == 3 ? tile * nodes_[0] * nodes_[1] : 0;
     std::array<const T*, C> in;
     std::array<T*, C> out;
+    // In 3D lines run across rows: through local copies, so that memory is read and written row by row.
     for (int c = 0; c < C; ++c) {
-      in[c] = D == 1 ? local(worker, 1 + c) : between_[c].data() + from;
-      out[c] = result[c] + from;
+      in[c] = D == 2 ? between_[c].data() + from : local(worker, 1 + c);
+      out[c] = D == 3 ? local(worker, 1 + C + c) : result[c] + from;
     }
-    const T* displacement = D == 1 ? local(worker, 0) : between_[D == 1 ? 0 : C].data() + from;
-    const LineTile layout = D == 3 ? LineTile{nodes_[0], nodes_[0], 1} : LineTile{rows, 1, nodes_[0]};
+    if constexpr (D == 3) {
+      for (int m = 0; m <= C; ++m)
+        copy_rows(between_[m].data() + from, nodes_[0], local(worker, m == C ? 0 : 1 + m), pitch_);
+    }
+    const T* displacement = D == 2 ? between_[C].data() + from : local(worker, 0);
+    const LineTile layout = D == 3 ? LineTile{nodes_[0], pitch_, 1} : LineTile{rows, 1, nodes_[0]};
     last_(layout, displacement, in, layout, out, scratch(worker));
-    const auto first = static_cast<std::size_t>(from);
-    place_positions(positions, engine.on, first, first, first + static_cast<std::size_t>(rows * nodes_[0]),
-                    [](std::size_t) { return true; });
+    if constexpr (D == 3) {
+      for (int c = 0; c < C; ++c) copy_rows(out[c], pitch_, result[c] + from, nodes_[0]);
+    }
+    place_rows(positions, from, rows);
+  }
+  void copy_rows(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch) const {
+    for (std::ptrdiff_t row = 0; row < nodes_[1]; ++row) {
+      std::copy_n(from + row * from_pitch, nodes_[0], to + row * to_pitch);
+    }
+  }
+  /// Positions of the nodes of `rows` rows along axis 0, the first of them at number `from`.
+  void place_rows(Columns<D, P> positions, std::ptrdiff_t from, std::ptrdiff_t rows) const {
+    for (std::ptrdiff_t row = 0; row < rows; ++row, from += nodes_[0]) {
+      const Vec<D> x = engine.on.position(engine.on.node(static_cast<std::size_t>(from)));
+      std::copy(columns_.begin(), columns_.end(), positions.column(0).begin() + from);
+      for (int d = 1; d < D; ++d) {
+        std::fill_n(positions.column(d).begin() + from, nodes_[0], static_cast<P>(x[d]));
+      }
+    }
   }
 
   std::array<std::ptrdiff_t, 3> nodes_;
@@ -190,6 +233,7 @@ class SplitPlan {
   SplitPass<K, T, C, 1> middle_;
   SplitPass<K, T, C, 0> last_;
   std::array<AlignedVector<T>, C + 1> between_;
+  std::vector<P> columns_;
   std::vector<AlignedVector<T>> workers_;
 };
 
