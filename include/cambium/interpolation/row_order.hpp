@@ -80,8 +80,13 @@ class RowOrder {
     const Domain<D>& domain = lattice.domain();
     resize(x.size(), cells.count());
     for_each_piece(execution, size_, piece_, [&](std::size_t begin, std::size_t end) {
-      valid_[begin / piece_] = positions_valid(domain, x, begin, end);
-      if (valid_[begin / piece_]) number_rows(cells, x, begin, end);
+      bool valid = true;
+      constexpr std::size_t cached = 1024;  // positions are checked and used while they are in cache
+      for (std::size_t p = begin; p < end && valid; p += cached) {
+        valid = positions_valid(domain, x, p, std::min(end, p + cached));
+        if (valid) number_rows(cells, x, p, std::min(end, p + cached));
+      }
+      valid_[begin / piece_] = valid;
     });
     if (std::find(valid_.begin(), valid_.end(), 0) != valid_.end()) {
       for (std::size_t p = 0; p < x.size(); ++p) require_inside(domain, x[p], p);
