@@ -84,8 +84,9 @@ Result run(std::ptrdiff_t cells, const std::string& folder, int pictures = 3) {
 
   Result result;
   TVDRK3<std::tuple<Columns<2, double>, std::span<double>>> stepper;
-  // Small steps: particles strained by C in a step leave an error of the order C^5 that no refinement takes away.
-  result.step = smallest({strain_limit(0.1, strain + rotation),
+  // The step shrinks with the spacing, so that the order of both shows. (A fixed one would leave an error that no
+  // refinement of space takes away: particles strained by C in a step leave one of the order C^5.)
+  result.step = smallest({strain_limit(6.0 / static_cast<double>(cells), strain + rotation),
                           exchange_limit(0.5, pse.epsilon(), nu, Gaussian4::order, stepper.real_axis)});
   const int steps = pictures * static_cast<int>(std::ceil(duration / pictures / result.step.dt));
   const double dt = duration / steps;

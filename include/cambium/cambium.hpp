@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// \file cambium.hpp  The whole library.
+/// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>: only its users compile Eigen. Programs
+/// link with FFTW.
 #include <cambium/core.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>
