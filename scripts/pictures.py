@@ -30,7 +30,7 @@ def read_runs(path):
 
 
 def show_field(axes, field, title, extent=(0, 1, 0, 1), **style):
-    """A periodic field as an image with equal scales and a colour bar; values beyond its colours are marked on the bar."""
+    """A periodic field as an image with equal scales and a colour bar; values beyond the colours are marked on it."""
     half = 0.5 * (extent[1] - extent[0]) / field.shape[1]  # pixels are centred on nodes
     image = axes.imshow(field, extent=[edge - half for edge in extent], interpolation="bilinear", **style)
     axes.set(xlim=extent[:2], ylim=extent[2:])
