@@ -3,4 +3,5 @@
 #pragma once
 
 /// \dir simd  Fixed numbers of lanes on any hardware; the only room that names xsimd.
+#include <cambium/simd/lane.hpp>
 #include <cambium/simd/pack.hpp>

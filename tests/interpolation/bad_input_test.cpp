@@ -112,13 +112,13 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(strengths_that_cannot_be, Dimension, Dimensions) {
   for (const double wrong : {not_a_number, infinity, -infinity}) {
     Scene<D> scene;
     scene.particles[scene.strength][6] = wrong;
-    expect_everywhere<ValueError>("particle 6.*(nan|inf).*only finite", scene, true);
+    expect_everywhere<ValueError>("particle 6.*(nan|inf).*must be finite", scene, true);
   }
   // A second attribute that is wrong, in its second component, must not cost the first.
   Scene<D> scene;
   scene.particles[scene.pair].set(8, {1.0, not_a_number});
   const auto before = bits(scene.particles);
-  const char* pattern = "strength of particle 8, component 1, is -?nan";
+  const char* pattern = "strength of particle 8 is -?nan in component 1";
   expect<ValueError>(pattern, [&] { Remesher<M4Prime>()(scene.particles, scene.lattice, scene.strength, scene.pair); });
   expect<ValueError>(pattern,
                      [&] { Remesher<M4Prime, Split>()(scene.particles, scene.lattice, scene.strength, scene.pair); });

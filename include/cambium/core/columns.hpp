@@ -77,4 +77,24 @@ auto read_columns(const Array& array) requires requires {
   return Columns<1, const Scalar>(std::span<const Scalar>(span));
 }
 
+namespace detail {
+
+template <class V>
+inline constexpr bool is_columns = false;
+template <int C, class T>
+inline constexpr bool is_columns<Columns<C, T>> = true;
+
+/// View of particle data as columns: Columns stay as they are, an array or span of scalars becomes one column.
+template <class V>
+auto columns_of(V&& values) {
+  if constexpr (is_columns<std::remove_cvref_t<V>>) {
+    return values;
+  } else {
+    auto span = std::span(values);
+    return Columns<1, typename decltype(span)::element_type>(span);
+  }
+}
+
+}  // namespace detail
+
 }  // namespace cambium

@@ -96,23 +96,4 @@ void require_room_for_kernel(const Lattice<D>& lattice) {
   }
 }
 
-/// \throws PositionError unless x is finite and, along bounded axes, inside the box with its faces rounded to T: there
-///         new particles of a remeshing are
-template <int D, class T>
-void require_inside(const Domain<D>& domain, const Vec<D, T>& x, std::size_t particle) {
-  for (int d = 0; d < D; ++d) {
-    if (!std::isfinite(x[d])) {
-      throw PositionError(detail::message("particle ", particle, " has position ", x, ": component ", d,
-                                          " is not finite; check the velocity and the time step"));
-    }
-    const T lo = static_cast<T>(domain.box.lo[d]);
-    const T hi = static_cast<T>(domain.box.hi[d]);
-    if (!domain.periodic[d] && !(x[d] >= lo && x[d] <= hi)) {
-      throw PositionError(detail::message("particle ", particle, " at ", x, " is outside the bounded box ",
-                                          domain.box.lo, " to ", domain.box.hi, " along axis ", d,
-                                          ": enlarge the box or remove the particle"));
-    }
-  }
-}
-
 }  // namespace cambium::detail

@@ -107,32 +107,6 @@ struct OnLattice {
   const Lattice<D>& lattice() const { return on; }
 };
 
-/// What `particles[attribute]` gives, as Columns.
-template <class T>
-Columns<1, T> columns_of(std::span<T> scalar) {
-  return Columns<1, T>(scalar);
-}
-template <int C, class T>
-Columns<C, T> columns_of(Columns<C, T> vector) {
-  return vector;
-}
-
-/// \throws ValueError naming the first strength that is not finite
-template <int C, class T>
-void require_finite(Columns<C, const T> strength) {
-  for (int c = 0; c < C; ++c) {
-    const auto column = strength.column(c);
-    int wrong = 0;  // comparisons with NaN are false
-    for (const T q : column) wrong += !(std::abs(q) <= std::numeric_limits<T>::max());
-    if (wrong == 0) continue;
-    for (std::size_t p = 0; p < column.size(); ++p) {
-      if (std::isfinite(column[p])) continue;
-      throw ValueError(message("strength of particle ", p, ", component ", c, ", is ", column[p],
-                               ": only finite strengths can be interpolated"));
-    }
-  }
-}
-
 }  // namespace detail
 
 /// Interpolation between particles and a lattice with kernel K, in 1D, 2D and 3D, float or double, any number of
@@ -158,7 +132,7 @@ class Interpolator {
     check_values<C, T, V>();
     detail::require_room_for_kernel<Kernel>(mesh.lattice());
     require_size(strength.size(), x.size(), "the array of strengths");
-    detail::require_finite(strength);
+    require_finite(strength, "strength", execution);
     auto& plan = plans_.template get<detail::InterpolationPlan<Kernel, T, P, D, C, S>>(mesh.lattice());
     const auto ordered = plan.place(x, execution);
     std::array<const T*, C> q;
@@ -213,26 +187,35 @@ class Interpolator {
     return divide(sums, mesh, params);
   }
 
-  template <int D, class P, class V, class S, Execution E = OpenMP>
-  void p2m(const Particles<D, P>& particles, Attribute<V> strength, Field<V, D, S>& mesh, const E& execution = {}) {
-    p2m(particles.positions(), detail::columns_of(particles[strength]), mesh, execution);
+  template <int D, class P, class A, class V, class S, Execution E = OpenMP>
+  void p2m(const Particles<D, P>& particles, Attribute<A> strength, Field<V, D, S>& mesh, const E& execution = {}) {
+    if constexpr (check_values<Components<A>::count, ScalarOf<A>, V>()) {
+      p2m(particles.positions(), detail::columns_of(particles[strength]), mesh, execution);
+    }
   }
-  template <int D, class P, class V, class S, Execution E = OpenMP>
-  void m2p(const Field<V, D, S>& mesh, Particles<D, P>& particles, Attribute<V> value, const E& execution = {}) {
-    const Particles<D, P>& constant = particles;
-    m2p(mesh, constant.positions(), detail::columns_of(particles[value]), execution);
+  template <int D, class P, class A, class V, class S, Execution E = OpenMP>
+  void m2p(const Field<V, D, S>& mesh, Particles<D, P>& particles, Attribute<A> value, const E& execution = {}) {
+    if constexpr (check_values<Components<A>::count, ScalarOf<A>, V>()) {
+      const Particles<D, P>& constant = particles;
+      m2p(mesh, constant.positions(), detail::columns_of(particles[value]), execution);
+    }
   }
-  template <int D, class P, class V, class S, Execution E = OpenMP>
-  Coverage p2m_renormalised(const Particles<D, P>& particles, Attribute<V> value, Field<V, D, S>& mesh,
+  template <int D, class P, class A, class V, class S, Execution E = OpenMP>
+  Coverage p2m_renormalised(const Particles<D, P>& particles, Attribute<A> value, Field<V, D, S>& mesh,
                             const RenormalisedParams<V>& params = {}, const E& execution = {}) {
-    return p2m_renormalised(particles.positions(), detail::columns_of(particles[value]), mesh, params, execution);
+    if constexpr (check_values<Components<A>::count, ScalarOf<A>, V>()) {
+      return p2m_renormalised(particles.positions(), detail::columns_of(particles[value]), mesh, params, execution);
+    }
+    return {};
   }
 
  private:
+  /// True, unless compilation stops here: so that nothing follows the message.
   template <int C, class T, class V>
-  static void check_values() {
+  static constexpr bool check_values() {
     static_assert(Components<V>::count == C, "cambium: particles and mesh must have the same number of components");
     static_assert(std::is_same_v<ScalarOf<V>, T>, "cambium: particles and mesh must hold the same scalar type");
+    return Components<V>::count == C && std::is_same_v<ScalarOf<V>, T>;
   }
   /// Divides the first components by the last, node by node.
   template <class Sums, class V>

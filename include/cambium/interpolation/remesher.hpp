@@ -85,7 +85,7 @@ class Remesher<Kernel, Split, E> {
     detail::require_room_for_kernel<Kernel>(lattice);
     require_size(particles.size(), lattice.size(), "the set of particles for split remeshing");
     const Particles<D, P>& before = particles;
-    (detail::require_finite(detail::columns_of(before[strengths])), ...);
+    (require_finite(read_columns(before[strengths]), "strength", execution_), ...);
     auto& plan = plans_.template get<detail::SplitPlan<Kernel, T, P, D, (Components<V>::count + ...)>>(lattice);
     return plan(particles, execution_, strengths...);
   }

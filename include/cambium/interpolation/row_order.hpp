@@ -14,6 +14,7 @@
 #include <cambium/core/columns.hpp>
 #include <cambium/interpolation/axis.hpp>
 #include <cambium/parallel/execution.hpp>
+#include <cambium/particles/validation.hpp>
 #include <cambium/simd/pack.hpp>
 
 namespace cambium::detail {
@@ -54,21 +55,6 @@ class CellRows {
   Index<D> cells_;
 };
 
-/// True if particles [begin, end) have finite positions, inside the box along bounded axes; branch-free.
-template <int D, class P>
-bool positions_valid(const Domain<D>& domain, Columns<D, const P> x, std::size_t begin, std::size_t end) {
-  bool valid = true;
-  for (int d = 0; d < D; ++d) {
-    const P* column = x.column(d).data();
-    const P lo = domain.periodic[d] ? std::numeric_limits<P>::lowest() : static_cast<P>(domain.box.lo[d]);
-    const P hi = domain.periodic[d] ? std::numeric_limits<P>::max() : static_cast<P>(domain.box.hi[d]);
-    int outside = 0;  // comparisons with NaN are false
-    for (std::size_t p = begin; p < end; ++p) outside += !((column[p] >= lo) & (column[p] <= hi));
-    valid &= outside == 0;
-  }
-  return valid;
-}
-
 /// Stable order of particles by rows of cells: found to be there already, or made by a counting sort.
 class RowOrder {
  public:
@@ -89,7 +75,7 @@ class RowOrder {
       valid_[begin / piece_] = valid;
     });
     if (std::find(valid_.begin(), valid_.end(), 0) != valid_.end()) {
-      for (std::size_t p = 0; p < x.size(); ++p) require_inside(domain, x[p], p);
+      require_positions(domain, x, execution);
     }
     arrange(execution);
   }

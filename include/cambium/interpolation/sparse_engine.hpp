@@ -41,7 +41,7 @@ class SparseEngine {
   /// \throws PositionError for the first particle that is not finite or outside a bounded box
   template <Execution E>
   void order(Columns<D, const P> x, RowOrder& order, const E& execution) {
-    for (std::size_t p = 0; p < x.size(); ++p) require_inside(lattice_.domain(), x[p], p);
+    require_positions(lattice_.domain(), x, execution);
     for (const auto& tile : tiles_) slot_[entry(tile)] = -1;
     tiles_.clear();
     block_of_.resize(x.size());

@@ -35,7 +35,7 @@ class SplitPlan {
   RemeshReport<V...> operator()(Particles<D, P>& particles, const E& execution, Attribute<V>... attributes) {
     const Lattice<D>& lattice = engine.on;
     const Particles<D, P>& before = particles;
-    validate(before.positions(), execution);
+    require_positions(lattice.domain(), before.positions(), execution);
     prepare(execution);
     Source source{before.positions(), {}};
     collect(source.strength, columns_of(before[attributes])...);
@@ -77,14 +77,6 @@ class SplitPlan {
     std::array<const T*, C> strength;
   };
 
-  template <Execution E>
-  void validate(Columns<D, const P> x, const E& execution) const {
-    const Domain<D>& domain = engine.on.domain();
-    for_each_piece(execution, x.size(), 16384, [&](std::size_t begin, std::size_t end) {
-      if (positions_valid(domain, x, begin, end)) return;
-      for (std::size_t p = begin; p < end; ++p) require_inside(domain, x[p], p);
-    });
-  }
   /// Each thread's arrays: the tile before and after its first move, then scratch of a pass.
   template <Execution E>
   void prepare(const E& execution) {

@@ -3,6 +3,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
 
 #include <cambium/core/columns.hpp>
 #include <cambium/core/domain.hpp>
@@ -28,22 +32,46 @@ void require_position(const Domain<D>& domain, const Vec<D, T>& x, std::size_t p
   }
 }
 
+/// True if particles [begin, end) have finite positions, inside the box along bounded axes; branch-free, for the case
+/// that nothing is wrong.
+template <int D, class T>
+bool positions_valid(const Domain<D>& domain, Columns<D, const T> positions, std::size_t begin, std::size_t end) {
+  int wrong = 0;  // comparisons with NaN are false
+  for (int d = 0; d < D; ++d) {
+    const T* x = positions.column(d).data();
+    const T lo = domain.periodic[d] ? std::numeric_limits<T>::lowest() : static_cast<T>(domain.box.lo[d]);
+    const T hi = domain.periodic[d] ? std::numeric_limits<T>::max() : static_cast<T>(domain.box.hi[d]);
+    for (std::size_t p = begin; p < end; ++p) wrong += !((x[p] >= lo) & (x[p] <= hi));
+  }
+  return wrong == 0;
+}
+
 /// \throws PositionError naming the first particle that require_position() refuses
 template <int D, class T, Execution E = OpenMP>
 void require_positions(const Domain<D>& domain, Columns<D, const T> positions, const E& execution = {}) {
-  for_each(execution, positions.size(), [&](std::size_t p) { require_position(domain, positions[p], p); });
+  for_each_piece(execution, positions.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    if (positions_valid(domain, positions, begin, end)) return;
+    for (std::size_t p = begin; p < end; ++p) require_position(domain, positions[p], p);
+  });
 }
 
 /// \throws ValueError naming the first particle with a component of `values` that is not finite; `what` is the name of
 ///         the values in the message ("strength", "volume")
 template <int C, class T, Execution E = OpenMP>
 void require_finite(Columns<C, const T> values, const char* what, const E& execution = {}) {
-  for_each(execution, values.size(), [&](std::size_t p) {
+  for_each_piece(execution, values.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    int wrong = 0;
     for (int c = 0; c < C; ++c) {
-      if (std::isfinite(values.column(c)[p])) continue;
-      throw ValueError(detail::message(what, " of particle ", p, " is ", values.column(c)[p],
-                                       C > 1 ? " in component " : "", C > 1 ? std::to_string(c) : "",
-                                       ": it must be finite; check what was computed from it last"));
+      const T* value = values.column(c).data();
+      for (std::size_t p = begin; p < end; ++p) wrong += !(std::abs(value[p]) <= std::numeric_limits<T>::max());
+    }
+    for (std::size_t p = begin; p < end && wrong > 0; ++p) {
+      for (int c = 0; c < C; ++c) {
+        if (std::isfinite(values.column(c)[p])) continue;
+        throw ValueError(detail::message(what, " of particle ", p, " is ", values.column(c)[p],
+                                         C > 1 ? " in component " : "", C > 1 ? std::to_string(c) : "",
+                                         ": it must be finite; check what was computed from it last"));
+      }
     }
   });
 }
