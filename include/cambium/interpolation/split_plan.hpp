@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 #include <cambium/interpolation/interpolator.hpp>
@@ -39,6 +40,7 @@ class SplitPlan {
     prepare(execution);
     Source source{before.positions(), {}};
     collect(source.strength, columns_of(before[attributes])...);
+    for (int d = 0; d < D; ++d) common_[d] = common_displacement(source.x, d);
     if constexpr (D > 1) {
       const std::ptrdiff_t tiles = D == 3 ? nodes_[1] : (nodes_[0] + strip - 1) / strip;
       for_each_piece_by_worker(execution, static_cast<std::size_t>(tiles), 1,
@@ -103,7 +105,23 @@ class SplitPlan {
     (take(views), ...);
   }
 
-  /// Displacements in spacings of particles from consecutive nodes of a row, the shortest way on periodic axes.
+  /// What displacements along a periodic axis have in common, in spacings: their circular mean over a sample.
+  double common_displacement(Columns<D, const P> x, int axis) const {
+    const Lattice<D>& lattice = engine.on;
+    if (!lattice.periodic(axis)) return 0.0;
+    const double radians = 2.0 * std::numbers::pi / static_cast<double>(nodes_[axis]);
+    double cosines = 0.0, sines = 0.0;
+    for (std::size_t p = 0; p < x.size(); p += x.size() / 1024 + 1) {
+      const double moved = static_cast<double>(x.column(axis)[p]) - lattice.position(lattice.node(p))[axis];
+      cosines += std::cos(radians * moved / lattice.spacing());
+      sines += std::sin(radians * moved / lattice.spacing());
+    }
+    return std::atan2(sines, cosines) / radians;
+  }
+  /// Displacements in spacings of particles from consecutive nodes of a row; on periodic axes the image that is closest
+  /// to the common displacement. Smooth displacements that reach around the period have particles within a spacing of
+  /// half a period from there: neighbours would carry values a period apart, whose mean means nothing.
+  /// \throws ValueError if there are such particles and the values are to be carried
   void displace_row(const P* x, int axis, std::ptrdiff_t node, std::size_t count, T* displacement) const {
     const Lattice<D>& lattice = engine.on;
     const double lo = lattice.box().lo[axis];
@@ -117,9 +135,13 @@ class SplitPlan {
     for (std::size_t l = 0; l < lanes; ++l) node_at[l] = first + (axis == 0 ? static_cast<double>(l) : 0.0);
     V nodes = V::load_aligned(node_at);
     const V step(axis == 0 ? static_cast<double>(lanes) : 0.0);
+    const V common(common_[axis]), half(0.5 - common_[axis] * per_period);
+    V room(n);
     const auto shortest = [&](const V& position) {
       const V u = (position - V(lo)) * V(per_spacing) - nodes;
-      return u - V(n) * floor(fma(u, V(per_period), V(0.5)));
+      const V moved = u - V(n) * floor(fma(u, V(per_period), half));
+      room = min(room, V(0.5 * n - 1.0) - max(moved - common, common - moved));
+      return moved;
     };
     std::size_t i = 0;
     for (; i + lanes <= count; i += lanes, nodes = nodes + step) {
@@ -131,10 +153,22 @@ class SplitPlan {
         for (std::size_t l = 0; l < lanes; ++l) displacement[i + l] = static_cast<T>(at[l]);
       }
     }
-    if (i == count) return;
-    for (std::size_t l = 0; l < lanes; ++l) at[l] = x[std::min(i + l, count - 1)];
-    shortest(V::load_aligned(at)).store_aligned(at);
-    for (std::size_t l = 0; i + l < count; ++l) displacement[i + l] = static_cast<T>(at[l]);
+    if (i < count) {
+      // Lanes beyond the end repeat the last particle, at its own node.
+      for (std::size_t l = 0; l < lanes; ++l) at[l] = x[std::min(i + l, count - 1)];
+      for (std::size_t l = 0; l < lanes; ++l) {
+        node_at[l] = first + (axis == 0 ? static_cast<double>(std::min(i + l, count - 1)) : 0.0);
+      }
+      nodes = V::load_aligned(node_at);
+      shortest(V::load_aligned(at)).store_aligned(at);
+      for (std::size_t l = 0; i + l < count; ++l) displacement[i + l] = static_cast<T>(at[l]);
+    }
+    if (axis == D - 1 || !lattice.periodic(axis) || lowest_lane(room) >= 0.0) return;
+    throw ValueError(message("split remeshing: particles have moved along axis ", axis, " by up to ",
+                             0.5 * n - 1.0 - lowest_lane(room),
+                             " spacings against one another, which reaches around the "
+                             "period of ",
+                             n, ": remesh after a shorter step, or use the strategy Tensor"));
   }
 
   /// 3D: plane y of all x and z, along axes 2 and 0. 2D: columns of a strip, along axis 1.
@@ -224,6 +258,7 @@ class SplitPlan {
   SplitPass<K, T, C, D - 1> first_;
   SplitPass<K, T, C, 1> middle_;
   SplitPass<K, T, C, 0> last_;
+  std::array<double, 3> common_{};
   std::array<AlignedVector<T>, C + 1> between_;
   std::vector<P> columns_;
   std::vector<AlignedVector<T>> workers_;
