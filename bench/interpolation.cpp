@@ -64,8 +64,8 @@ constexpr double flops_per_particle() {
          (D == 3 ? K::support * K::support : 0);
 }
 
-/// The library at work on a cloud.
-template <class K, int D, class T, int C>
+/// The library at work on a cloud: placed once, or with the order to be found in every call.
+template <class K, int D, class T, int C, bool placed>
 struct LibraryRun {
   using Value = std::conditional_t<C == 1, T, Vec<C, T>>;
 
@@ -84,7 +84,14 @@ struct LibraryRun {
   }
   void operator()(Way way, int threads) {
     const OpenMP execution{threads};
-    if (way == Way::p2m) {
+    if constexpr (placed) {
+      if (placement.size() == 0) placement.update(mesh.lattice(), (*cloud)->positions(), execution);
+      if (way == Way::p2m) {
+        interpolator.p2m(placement, (*cloud)->template strengths<C>(), mesh, execution);
+      } else {
+        interpolator.m2p(mesh, placement, values, execution);
+      }
+    } else if (way == Way::p2m) {
       interpolator.p2m((*cloud)->positions(), (*cloud)->template strengths<C>(), mesh, execution);
     } else {
       interpolator.m2p(mesh, (*cloud)->positions(), values, execution);
@@ -96,6 +103,7 @@ struct LibraryRun {
   std::array<AlignedVector<T>, C> value;
   Columns<C, T> values;
   Interpolator<K> interpolator;
+  Placement<K, D, T> placement;
 };
 
 /// A plain loop at work on a cloud.
@@ -162,11 +170,12 @@ class InterpolationContest {
     const std::string scalar = prefix_ + scalar_name<T> + "/";
     const auto sorted = lazily<Cloud<D, T>>(options_.cells<D>(), Order::sorted);
     const std::size_t peak = add_peak<T>(scalar);
-    const std::size_t one = add_library<T, 1>(scalar + "1/sorted", sorted, peak);
+    const std::size_t one = add_library<T, 1, true>(scalar + "1/sorted", sorted, peak);
     if constexpr (everything) {
       const auto random = lazily<Cloud<D, T>>(options_.cells<D>(), Order::random);
-      compare(add_library<T, 3>(scalar + "3/sorted", sorted, peak), "ratio_to_one_component", one);
-      compare(add_library<T, 1>(scalar + "1/random", random, peak), "ratio_to_sorted", one);
+      compare(add_library<T, 3, true>(scalar + "3/sorted", sorted, peak), "ratio_to_one_component", one);
+      compare(add_library<T, 1, false>(scalar + "1/unplaced", sorted, peak), "ratio_to_sorted", one);
+      compare(add_library<T, 1, false>(scalar + "1/random", random, peak), "ratio_to_sorted", one);
       compare(add_loop<PlainRun<CompiledBy::build, K, D, T>>(scalar + "1/plain_build", sorted), "ratio_to_library",
               one);
       if constexpr (PLAIN_LOOP_CLANG) {
@@ -191,9 +200,9 @@ class InterpolationContest {
     contest_->count(peak, "gflops", [=](const auto& round) { return 1e-9 * flops / round[peak]; });
     return peak;
   }
-  template <class T, int C>
+  template <class T, int C, bool placed>
   std::size_t add_library(const std::string& row, std::shared_ptr<Lazy<Cloud<D, T>>> cloud, std::size_t peak) {
-    const auto run = lazily<LibraryRun<K, D, T, C>>(cloud);
+    const auto run = lazily<LibraryRun<K, D, T, C, placed>>(cloud);
     const std::size_t i = contest_->add(row, [=, way = way_] { (**run)(way, 1); });
     add_rates(i);
     const double flops = particles_ * flops_per_particle<K, D, C>();
@@ -253,7 +262,7 @@ void enter_threads(const char* kernel, Way way, const Options& options) {
   const auto contest = std::make_shared<Contest>(wall_seconds);
   const std::string prefix = detail::message("threads/", name(way), "/", kernel, "/", D, "D/");
   const auto cloud = lazily<Cloud<D, double>>(options.cells<D>(), Order::sorted);
-  const auto run = lazily<LibraryRun<K, D, double, 1>>(cloud);
+  const auto run = lazily<LibraryRun<K, D, double, 1, true>>(cloud);
   const auto arithmetic = [steps = options.peak_steps](int threads) {
     for_each_piece(OpenMP{threads}, static_cast<std::size_t>(threads), 1,
                    [&](std::size_t, std::size_t) { benchmark::DoNotOptimize(FmaPeak<double>::run(steps)); });

@@ -6,5 +6,6 @@
 #include <cambium/interpolation/interpolator.hpp>
 #include <cambium/interpolation/m2p.hpp>
 #include <cambium/interpolation/p2m.hpp>
+#include <cambium/interpolation/placement.hpp>
 #include <cambium/interpolation/plain.hpp>
 #include <cambium/interpolation/remesher.hpp>

@@ -15,6 +15,7 @@
 #include <cambium/core/sparse.hpp>
 #include <cambium/interpolation/dense_engine.hpp>
 #include <cambium/interpolation/line_engine.hpp>
+#include <cambium/interpolation/placement.hpp>
 #include <cambium/interpolation/sparse_engine.hpp>
 #include <cambium/particles/particles.hpp>
 
@@ -50,25 +51,55 @@ struct InterpolationPlan {
 
   /// Orders the particles; copies positions into the order of rows if they are not in it.
   template <Execution E>
-  std::array<const P*, D> place(Columns<D, const P> x, const E& execution) {
+  const Placement<K, D, P>& place(Columns<D, const P> x, const E& execution) {
     if constexpr (std::is_same_v<Storage, Sparse>) {
-      engine.order(x, order, execution);
+      placement.update_by(
+          x, [&](RowOrder& order) { engine.order(x, order, execution); }, execution);
     } else {
-      order.template build<K>(engine.lattice(), x, execution);
+      placement.update(engine.lattice(), x, execution);
     }
-    std::array<const P*, D> ordered;
-    for (int d = 0; d < D; ++d) {
-      ordered[d] = x.column(d).data();
-      if (order.sorted()) continue;
-      order.scatter(x.column(d), positions[d], execution);
-      ordered[d] = positions[d].data();
+    return placement;
+  }
+
+  template <class V, Execution E>
+  void p2m(const Placement<K, D, P>& particles, Columns<C, const T> strength, Field<V, D, Storage>& mesh,
+           const E& execution) {
+    std::array<const T*, C> q;
+    for (int c = 0; c < C; ++c) {
+      q[c] = strength.column(c).data();
+      if (particles.sorted()) continue;
+      particles.order().scatter(strength.column(c), values[c], execution);
+      q[c] = values[c].data();
     }
-    return ordered;
+    engine.p2m(particles.positions(), q, particles.order(), access(mesh), execution);
+  }
+
+  template <class V, Execution E>
+  void m2p(const Field<V, D, Storage>& mesh, const Placement<K, D, P>& particles, Columns<C, T> value,
+           const E& execution) {
+    std::array<T*, C> q;
+    for (int c = 0; c < C; ++c) {
+      q[c] = value.column(c).data();
+      if (particles.sorted()) continue;
+      values[c].resize(particles.size());
+      q[c] = values[c].data();
+    }
+    engine.m2p(particles.positions(), q, particles.order(), access(mesh), execution);
+    for (int c = 0; c < C && !particles.sorted(); ++c) particles.order().gather(values[c], value.column(c), execution);
+  }
+
+  /// A mesh as the engine takes it: a sparse field, or the first value of a dense one.
+  template <class Mesh>
+  static decltype(auto) access(Mesh& mesh) {
+    if constexpr (std::is_same_v<Storage, Sparse>) {
+      return (mesh);
+    } else {
+      return &component(mesh[0], 0);
+    }
   }
 
   Engine engine;
-  RowOrder order;
-  std::array<AlignedVector<P>, D> positions;
+  Placement<K, D, P> placement;
   std::array<AlignedVector<T>, C> values;
 };
 
@@ -133,20 +164,18 @@ class Interpolator {
     detail::require_room_for_kernel<Kernel>(mesh.lattice());
     require_size(strength.size(), x.size(), "the array of strengths");
     require_finite(strength, "strength", execution);
-    auto& plan = plans_.template get<detail::InterpolationPlan<Kernel, T, P, D, C, S>>(mesh.lattice());
-    const auto ordered = plan.place(x, execution);
-    std::array<const T*, C> q;
-    for (int c = 0; c < C; ++c) {
-      q[c] = strength.column(c).data();
-      if (plan.order.sorted()) continue;
-      plan.order.scatter(strength.column(c), plan.values[c], execution);
-      q[c] = plan.values[c].data();
-    }
-    if constexpr (std::is_same_v<S, Sparse>) {
-      plan.engine.p2m(ordered, q, plan.order, mesh, execution);
-    } else {
-      plan.engine.p2m(ordered, q, plan.order, &component(mesh[0], 0), execution);
-    }
+    auto& plan = plan_for<D, P, C, T>(mesh);
+    plan.p2m(plan.place(x, execution), strength, mesh, execution);
+  }
+  /// The same for particles that were placed before.
+  template <int D, class P, int C, class T, class V, Execution E = OpenMP>
+  void p2m(const Placement<Kernel, D, P>& particles, Columns<C, const T> strength, Field<V, D>& mesh,
+           const E& execution = {}) {
+    check_values<C, T, V>();
+    particles.require_lattice(mesh.lattice());
+    require_size(strength.size(), particles.size(), "the array of strengths");
+    require_finite(strength, "strength", execution);
+    plan_for<D, P, C, T>(mesh).p2m(particles, strength, mesh, execution);
   }
 
   /// value_p := sum_i mesh_i W((x_i - x_p) / h). Reads inactive blocks of a sparse mesh as its background.
@@ -155,21 +184,17 @@ class Interpolator {
     check_values<C, T, V>();
     detail::require_room_for_kernel<Kernel>(mesh.lattice());
     require_size(value.size(), x.size(), "the array of values");
-    auto& plan = plans_.template get<detail::InterpolationPlan<Kernel, T, P, D, C, S>>(mesh.lattice());
-    const auto ordered = plan.place(x, execution);
-    std::array<T*, C> q;
-    for (int c = 0; c < C; ++c) {
-      q[c] = value.column(c).data();
-      if (plan.order.sorted()) continue;
-      plan.values[c].resize(x.size());
-      q[c] = plan.values[c].data();
-    }
-    if constexpr (std::is_same_v<S, Sparse>) {
-      plan.engine.m2p(ordered, q, plan.order, mesh, execution);
-    } else {
-      plan.engine.m2p(ordered, q, plan.order, &component(mesh[0], 0), execution);
-    }
-    for (int c = 0; c < C && !plan.order.sorted(); ++c) plan.order.gather(plan.values[c], value.column(c), execution);
+    auto& plan = plan_for<D, P, C, T>(mesh);
+    plan.m2p(mesh, plan.place(x, execution), value, execution);
+  }
+  /// The same for particles that were placed before.
+  template <int D, class P, int C, class T, class V, Execution E = OpenMP>
+  void m2p(const Field<V, D>& mesh, const Placement<Kernel, D, P>& particles, Columns<C, T> value,
+           const E& execution = {}) {
+    check_values<C, T, V>();
+    particles.require_lattice(mesh.lattice());
+    require_size(value.size(), particles.size(), "the array of values");
+    plan_for<D, P, C, T>(mesh).m2p(mesh, particles, value, execution);
   }
 
   /// mesh_i := sum_p value_p W / sum_p W, eq. 11.31: for values rather than strengths; the denominator stands for the
@@ -210,6 +235,10 @@ class Interpolator {
   }
 
  private:
+  template <int D, class P, int C, class T, class V, class S>
+  auto& plan_for(const Field<V, D, S>& mesh) {
+    return plans_.template get<detail::InterpolationPlan<Kernel, T, P, D, C, S>>(mesh.lattice());
+  }
   /// True, unless compilation stops here: so that nothing follows the message.
   template <int C, class T, class V>
   static constexpr bool check_values() {
