@@ -138,6 +138,15 @@ struct OnLattice {
   const Lattice<D>& lattice() const { return on; }
 };
 
+/// Sums of weighted values and, as their last component, of weights; and a strength of one for every particle.
+template <class T, int D, int C, class Storage>
+struct WeightedSums {
+  explicit WeightedSums(const Lattice<D>& lattice) : engine{lattice}, sums(lattice) {}
+  OnLattice<D> engine;
+  Field<Vec<C + 1, T>, D, Storage> sums;
+  AlignedVector<T> ones;
+};
+
 }  // namespace detail
 
 /// Interpolation between particles and a lattice with kernel K, in 1D, 2D and 3D, float or double, any number of
@@ -205,11 +214,11 @@ class Interpolator {
     require_size(value.size(), x.size(), "the array of values");
     std::array<const T*, C + 1> weighted;
     for (int c = 0; c < C; ++c) weighted[c] = value.column(c).data();
-    const AlignedVector<T> ones(x.size(), T(1));
-    weighted[C] = ones.data();
-    Field<Vec<C + 1, T>, D, S> sums(mesh.lattice());
-    p2m(x, Columns<C + 1, const T>(weighted, x.size()), sums, execution);
-    return divide(sums, mesh, params);
+    auto& scratch = plans_.template get<detail::WeightedSums<T, D, C, S>>(mesh.lattice());
+    scratch.ones.resize(x.size(), T(1));
+    weighted[C] = scratch.ones.data();
+    p2m(x, Columns<C + 1, const T>(weighted, x.size()), scratch.sums, execution);
+    return divide(scratch.sums, mesh, params);
   }
 
   template <int D, class P, class A, class V, class S, Execution E = OpenMP>
