@@ -112,22 +112,28 @@ class PlanStore {
       if (entry.type != &tag<Plan>) continue;
       auto* plan = static_cast<Plan*>(entry.object.get());
       if (!(plan->engine.lattice() == lattice)) {
-        entry.object = std::make_shared<Plan>(lattice);
+        entry.object = make<Plan>(lattice);
         plan = static_cast<Plan*>(entry.object.get());
       }
       return *plan;
     }
-    entries_.push_back({&tag<Plan>, std::make_shared<Plan>(lattice)});
+    entries_.push_back({&tag<Plan>, make<Plan>(lattice)});
     return *static_cast<Plan*>(entries_.back().object.get());
   }
 
  private:
   template <class>
   static constexpr char tag = 0;
+  /// Owner of an object whose type only the deleter knows.
+  using Object = std::unique_ptr<void, void (*)(void*)>;
   struct Entry {
     const char* type;
-    std::shared_ptr<void> object;
+    Object object;
   };
+  template <class Plan, int D>
+  static Object make(const Lattice<D>& lattice) {
+    return Object(new Plan(lattice), [](void* plan) { delete static_cast<Plan*>(plan); });
+  }
   std::vector<Entry> entries_;
 };
 
