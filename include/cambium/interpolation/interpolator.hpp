@@ -172,7 +172,7 @@ class Interpolator {
   Interpolator() { check_remeshing_kernel<Kernel>(); }
 
   /// mesh_i := sum_p strength_p W((x_i - x_p) / h), eq. 11.17: conserves total and moments. Overwrites the mesh; a
-  /// sparse mesh gets exactly the blocks under the particles.
+  /// sparse mesh gets the blocks that the kernel can reach from blocks of cells with particles, and no others.
   template <int D, class P, int C, class T, class V, class S, Execution E = OpenMP>
   void p2m(Columns<D, const P> x, Columns<C, const T> strength, Field<V, D, S>& mesh, const E& execution = {}) {
     check_values<C, T, V>();

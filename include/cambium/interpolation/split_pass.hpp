@@ -88,9 +88,32 @@ class SplitPass {
       }
       step = static_cast<std::ptrdiff_t>(L);
     }
+    if constexpr (Carried > 0) require_order<L>(source[0], step);
     for (std::ptrdiff_t i = 0; i < n; ++i) scatter<L>(i, source, i * step, sum);
     if constexpr (Carried > 0) renormalise<L>(sum);
     for (std::size_t m = 0; m < moved; ++m) write<L>(sum + m * L, to, out[m] + l * to.across);
+  }
+  /// Values can be carried only if no particle of a line has passed the next: 1 + d(displacement)/dx > 0. On periodic
+  /// axes displacements are known up to a period.
+  template <std::size_t L>
+  void require_order(const T* displacement, std::ptrdiff_t step) const {
+    const std::ptrdiff_t n = close_.nodes();
+    const Lanes<L> period(close_.periodic() ? static_cast<T>(n) : T(0));
+    const Lanes<L> per_period(close_.periodic() ? T(1) / static_cast<T>(n) : T(0));
+    Lanes<L> steepest(T(0));
+    Lanes<L> here = Lanes<L>::load(displacement);
+    for (std::ptrdiff_t i = 1; i < n; ++i) {
+      const Lanes<L> next = Lanes<L>::load(displacement + i * step);
+      const Lanes<L> change = next - here;
+      steepest = min(steepest, change - period * floor(fma(change, per_period, Lanes<L>(T(0.5)))));
+      here = next;
+    }
+    const T change = lowest_lane(steepest);
+    if (change > T(-1)) return;
+    throw ValueError(message("split remeshing along axis ", axis_, " meets displacements of neighbours that differ by ",
+                             change,
+                             " spacings, so that one has passed the other: remesh after a shorter step, or use the "
+                             "strategy Tensor"));
   }
   /// L rows of contiguous entries -> entries of all L rows side by side.
   template <std::size_t L>

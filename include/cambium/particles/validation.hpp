@@ -16,7 +16,7 @@
 namespace cambium {
 
 /// \throws PositionError unless `x`, the position of particle `p`, is finite and, along bounded axes, inside the closed
-///         box
+///         box, whose faces are taken in the precision of the positions
 template <int D, class T>
 void require_position(const Domain<D>& domain, const Vec<D, T>& x, std::size_t p) {
   for (int d = 0; d < D; ++d) {
@@ -24,7 +24,8 @@ void require_position(const Domain<D>& domain, const Vec<D, T>& x, std::size_t p
       throw PositionError(detail::message("particle ", p, " has position ", x, ": component ", d,
                                           " is not finite; check the velocity and the time step"));
     }
-    if (!domain.periodic[d] && !(x[d] >= domain.box.lo[d] && x[d] <= domain.box.hi[d])) {
+    if (!domain.periodic[d] &&
+        !(x[d] >= static_cast<T>(domain.box.lo[d]) && x[d] <= static_cast<T>(domain.box.hi[d]))) {
       throw PositionError(detail::message("particle ", p, " at ", x, " is outside the bounded box ", domain.box.lo,
                                           " to ", domain.box.hi, " along axis ", d,
                                           ": enlarge the box or remove the particle"));
