@@ -225,8 +225,9 @@ class SplitPlan {
       out[c] = D == 3 ? local(worker, 1 + C + c) : result[c] + from;
     }
     if constexpr (D == 3) {
-      for (int m = 0; m <= C; ++m)
+      for (int m = 0; m <= C; ++m) {
         copy_rows(between_[m].data() + from, nodes_[0], local(worker, m == C ? 0 : 1 + m), pitch_);
+      }
     }
     const T* displacement = D == 2 ? between_[C].data() + from : local(worker, 0);
     const LineTile layout = D == 3 ? LineTile{nodes_[0], pitch_, 1} : LineTile{rows, 1, nodes_[0]};

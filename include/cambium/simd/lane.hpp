@@ -20,8 +20,8 @@ template <class T, std::size_t Bytes>
 struct WideVector {
   using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
   static constexpr std::size_t lanes = Bytes / sizeof(T);
-  typedef T Values __attribute__((vector_size(Bytes)));
-  typedef Integer Bits __attribute__((vector_size(Bytes)));
+  using Values [[gnu::vector_size(Bytes)]] = T;
+  using Bits [[gnu::vector_size(Bytes)]] = Integer;
 
   static Values load(const T* from) {
     Values v;
