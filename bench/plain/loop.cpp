@@ -105,8 +105,19 @@ constexpr auto compiled_by = static_cast<CompiledBy>(PLAIN_LOOP_COMPILER);
 
 }  // namespace
 
-using cambium::M4Prime;
-using cambium::M6;
+using namespace cambium;
+template struct PlainLoop<compiled_by, Hat, 2, double>;
+template struct PlainLoop<compiled_by, Hat, 3, double>;
+template struct PlainLoop<compiled_by, Hat, 2, float>;
+template struct PlainLoop<compiled_by, Hat, 3, float>;
+template struct PlainLoop<compiled_by, M3, 2, double>;
+template struct PlainLoop<compiled_by, M3, 3, double>;
+template struct PlainLoop<compiled_by, M3, 2, float>;
+template struct PlainLoop<compiled_by, M3, 3, float>;
+template struct PlainLoop<compiled_by, M4, 2, double>;
+template struct PlainLoop<compiled_by, M4, 3, double>;
+template struct PlainLoop<compiled_by, M4, 2, float>;
+template struct PlainLoop<compiled_by, M4, 3, float>;
 template struct PlainLoop<compiled_by, M4Prime, 2, double>;
 template struct PlainLoop<compiled_by, M4Prime, 3, double>;
 template struct PlainLoop<compiled_by, M4Prime, 2, float>;
@@ -115,5 +126,25 @@ template struct PlainLoop<compiled_by, M6, 2, double>;
 template struct PlainLoop<compiled_by, M6, 3, double>;
 template struct PlainLoop<compiled_by, M6, 2, float>;
 template struct PlainLoop<compiled_by, M6, 3, float>;
+template struct PlainLoop<compiled_by, M6TriplePrime, 2, double>;
+template struct PlainLoop<compiled_by, M6TriplePrime, 3, double>;
+template struct PlainLoop<compiled_by, M6TriplePrime, 2, float>;
+template struct PlainLoop<compiled_by, M6TriplePrime, 3, float>;
+template struct PlainLoop<compiled_by, Lambda<2, 2>, 2, double>;
+template struct PlainLoop<compiled_by, Lambda<2, 2>, 3, double>;
+template struct PlainLoop<compiled_by, Lambda<2, 2>, 2, float>;
+template struct PlainLoop<compiled_by, Lambda<2, 2>, 3, float>;
+template struct PlainLoop<compiled_by, Lambda<4, 4>, 2, double>;
+template struct PlainLoop<compiled_by, Lambda<4, 4>, 3, double>;
+template struct PlainLoop<compiled_by, Lambda<4, 4>, 2, float>;
+template struct PlainLoop<compiled_by, Lambda<4, 4>, 3, float>;
+template struct PlainLoop<compiled_by, Lambda<6, 4>, 2, double>;
+template struct PlainLoop<compiled_by, Lambda<6, 4>, 3, double>;
+template struct PlainLoop<compiled_by, Lambda<6, 4>, 2, float>;
+template struct PlainLoop<compiled_by, Lambda<6, 4>, 3, float>;
+template struct PlainLoop<compiled_by, Lambda<8, 4>, 2, double>;
+template struct PlainLoop<compiled_by, Lambda<8, 4>, 3, double>;
+template struct PlainLoop<compiled_by, Lambda<8, 4>, 2, float>;
+template struct PlainLoop<compiled_by, Lambda<8, 4>, 3, float>;
 
 }  // namespace bench
