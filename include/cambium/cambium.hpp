@@ -8,6 +8,7 @@
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
+#include <cambium/levelset.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>
 #include <cambium/particles.hpp>

@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <limits>
+
+#include <cambium/levelset/closest_points.hpp>
+#include <cambium/levelset/reinitialisation.hpp>
+
+namespace cambium {
+
+/// Reinitialisation by closest points: phi := +-|x - closest point|, of the order of kernel K; the default.
+///
+/// A node whose value already is the distance, to within what the values around it can tell (the difference between two
+/// kernels of different order), keeps it to the last bit: so a second call changes nothing, and a thousand calls do not
+/// move the interface.
+template <class K>
+struct BasicClosestPoint {
+  struct Params {};
+
+  template <class T, int D>
+  class Method {
+   public:
+    Method() = default;
+    explicit Method(const Params&) {}
+
+    /// phi := signed distance at every node of the blocks within the half width, +-half width at the others.
+    template <Execution E>
+    ReinitReport operator()(NarrowBand<T, D>& band, const E& execution) {
+      points_.find(band, static_cast<double>(band.half_width()), execution);
+      for_each_piece(execution, band.blocks(), 1, [&](std::size_t b, std::size_t) {
+        const auto phi = band.values().block(b);
+        for (std::size_t i = 0; i < phi.size(); ++i) phi[i] = distance(band, b, i, phi[i]);
+      });
+      const ClosestPointCounts& counts = points_.counts();
+      return {counts.nodes, counts.lower_order, counts.not_searched, 1};
+    }
+    /// Closest points of the nodes at the last call.
+    const ClosestPoints<K, T, D>& points() const { return points_; }
+
+   private:
+    T distance(const NarrowBand<T, D>& band, std::size_t b, std::size_t i, T phi) const {
+      const T far = phi < T(0) ? -band.half_width() : band.half_width();
+      if (!points_.found(b, i)) return far;
+      const T h = static_cast<T>(band.spacing());
+      const T length = norm(points_.offset(b, i)) * h;
+      const T round_off = T(16) * std::numeric_limits<T>::epsilon() * band.half_width();
+      const bool is_distance = std::abs(length - std::abs(phi)) <= T(2) * points_.error(b, i) * h + round_off;
+      if (is_distance && band.in_band(phi)) return phi;
+      return band.in_band(length) ? (phi < T(0) ? -length : length) : far;
+    }
+
+    ClosestPoints<K, T, D> points_;
+  };
+};
+
+/// Closest points by the fifth-order kernel Lambda_{4,4}: four continuous derivatives, so that curvature is continuous.
+using ClosestPoint = BasicClosestPoint<Lambda<4, 4>>;
+
+}  // namespace cambium

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <cambium/kernels/hat.hpp>
+#include <cambium/kernels/lambda.hpp>
+#include <cambium/kernels/m4_prime.hpp>
+#include <cambium/levelset/closest_point_search.hpp>
+#include <cambium/levelset/nearest_candidates.hpp>
+
+namespace cambium {
+
+/// How closest points were found.
+struct ClosestPointCounts {
+  std::size_t nodes = 0;         ///< nodes with a closest point
+  std::size_t lower_order = 0;   ///< of these, by one of the lower-order kernels: the interface is under-resolved there
+  std::size_t not_searched = 0;  ///< of these, by the point of a neighbour or a linear estimate: no search converged
+};
+
+/// Closest points on the interface of the nodes of a band, from phi of any scaling whose zero set is the interface.
+///
+/// Nodes next to the interface search from the crossings of the lattice lines; every other node from the nearest of the
+/// points that these found. The search (Newton) runs on the
+/// interpolant of kernel K; where it fails, on that of M4' and then of Hat.
+template <class K, class T, int D>
+class ClosestPoints {
+ public:
+  using Band = NarrowBand<T, D>;
+  /// Kernel of higher order whose difference from K tells the error of K.
+  using Finer = Lambda<6, 4>;
+
+  /// \param band        values of any scaling; blocks around every node within `width` of the interface
+  /// \param width       length up to which closest points are wanted
+  template <Execution E>
+  void find(const Band& band, double width, const E& execution) {
+    width_ = static_cast<T>(width / band.spacing());
+    const std::size_t size = band.blocks() * Band::volume;
+    for (auto& column : offset_) column.resize(size);
+    error_.resize(size);
+    method_.assign(size, unknown);
+    search_near(band, execution);
+    list_near(band);
+    search_far(band, execution);
+    count();
+  }
+
+  /// True if node i of block b has a closest point.
+  bool found(std::size_t b, std::size_t i) const { return method_[b * Band::volume + i] != unknown; }
+  /// Closest point minus position of the node, in spacings.
+  Vec<D, T> offset(std::size_t b, std::size_t i) const { return offset_at(b * Band::volume + i); }
+  /// What the closest point may be off by, in spacings: the difference between two kernels.
+  T error(std::size_t b, std::size_t i) const { return error_[b * Band::volume + i]; }
+  const ClosestPointCounts& counts() const { return counts_; }
+
+ private:
+  static constexpr std::uint8_t not_searched = 3;
+  static constexpr std::uint8_t unknown = 4;
+  /// Nodes next to the interface have their point within one spacing; a search may take it a little further.
+  static constexpr double near_reach = 1.6;
+  /// Nodes that the stencils of a search need beyond the point that it may reach.
+  static constexpr std::ptrdiff_t stencil = Taps<Finer>::support / 2 + 1;
+
+  Vec<D, T> offset_at(std::size_t at) const {
+    Vec<D, T> result;
+    for (int d = 0; d < D; ++d) result[d] = offset_[d][at];
+    return result;
+  }
+  void set_offset(std::size_t at, const Vec<D, T>& offset) {
+    for (int d = 0; d < D; ++d) offset_[d][at] = offset[d];
+  }
+  /// Calls f(patch, block, worker) for every block, the patch being read with `halo` nodes around.
+  template <Execution E, class F>
+  void for_each_patch(const Band& band, std::ptrdiff_t halo, const E& execution, F&& f) {
+    patches_.resize(static_cast<std::size_t>(execution.count()));
+    for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+      patches_[worker].read_block(band, b, halo);
+      f(static_cast<const Patch<T, D>&>(patches_[worker]), b, worker);
+    });
+  }
+
+  /// Nodes with a neighbour on the other side.
+  template <Execution E>
+  void search_near(const Band& band, const E& execution) {
+    for_each_patch(
+        band, static_cast<std::ptrdiff_t>(near_reach) + stencil, execution, [&](const auto& patch, auto b, auto) {
+          for (std::size_t i = 0; i < Band::volume; ++i) {
+            const std::ptrdiff_t at = patch.entry(i);
+            Vec<D, T> offset;
+            if (!crossing(patch, at, offset) || !band.lattice().contains(band.values().node(b, i))) continue;
+            const Vec<D, T> x = patch.position(at);
+            Vec<D, T> y = x + offset;
+            const std::size_t to = b * Band::volume + i;
+            method_[to] = search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), &error_[to]);
+            set_offset(to, y - x);
+          }
+        });
+  }
+  /// The linear estimate of the closest point from the crossings of the lattice lines through a node: the foot of the
+  /// perpendicular on the plane through them. \return false if no line crosses
+  static bool crossing(const Patch<T, D>& patch, std::ptrdiff_t at, Vec<D, T>& offset) {
+    const T here = patch[at];
+    Vec<D, T> inverse{};
+    bool crossed = false;
+    for (int d = 0; d < D; ++d) {
+      for (const int way : {-1, 1}) {
+        const T there = patch[at + way * patch.stride()[d]];
+        if ((here < T(0)) == (there < T(0))) continue;
+        crossed = true;
+        const T slope = static_cast<T>(way) * (here - there);
+        if (std::abs(slope) > std::abs(inverse[d] * here)) inverse[d] = slope / here;
+      }
+    }
+    if (crossed) offset = here == T(0) ? Vec<D, T>{} : inverse / dot(inverse, inverse);
+    return crossed;
+  }
+  /// Tries kernels in turn: y becomes the point if one succeeds and is not further from x than y was by more than
+  /// `slack`. \return number of the first that succeeds, or `not_searched`
+  template <class First, class... Rest>
+  static std::uint8_t search(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y, T reach, T slack, T* error) {
+    detail::ClosestPointSearch<First, T, D> newton(patch, reach);
+    Vec<D, T> at = y;
+    if (newton(x, at) && norm(at - x) < norm(y - x) + slack) {
+      y = at;
+      if (error) *error = difference(patch, at, newton.jet());
+      return static_cast<std::uint8_t>(not_searched - 1 - sizeof...(Rest));
+    }
+    if constexpr (sizeof...(Rest) > 0) {
+      return search<Rest...>(patch, x, y, reach, slack, error);
+    } else {
+      if (error) *error = T(0.5);
+      return not_searched;
+    }
+  }
+  /// Distance between the zero sets of two kernels near y, in spacings: their values and, since these may agree by
+  /// chance, half of a spacing times their gradients.
+  static T difference(const Patch<T, D>& patch, const Vec<D, T>& y, const Jet<T, D>& jet) {
+    const Jet<T, D> finer = Interpolant<Finer, T, D>::jet(patch.data(), patch.stride(), y);
+    return (std::abs(finer.value) + T(0.5) * norm(finer.gradient - jet.gradient)) / norm(jet.gradient);
+  }
+
+  /// Numbers of the nodes that search_near() found points for, block by block.
+  void list_near(const Band& band) {
+    near_.clear();
+    near_begin_.assign(1, 0);
+    for (std::size_t b = 0; b < band.blocks(); ++b) {
+      for (std::size_t i = 0; i < Band::volume; ++i) {
+        if (method_[b * Band::volume + i] != unknown) near_.push_back(b * Band::volume + i);
+      }
+      near_begin_.push_back(near_.size());
+    }
+  }
+  void offer_near(const Band& band, std::size_t b, detail::NearestCandidates<T, D>& nearest) const {
+    const auto reach = static_cast<std::ptrdiff_t>(std::ceil(width_ + static_cast<T>(near_reach)));
+    detail::for_each_block_around(band, b, reach, [&](std::size_t from, const Index<D>& shift) {
+      for (std::size_t k = near_begin_[from]; k < near_begin_[from + 1]; ++k) {
+        const std::size_t node = near_[k];
+        Vec<D, T> point = offset_at(node) + position_in_block(node % Band::volume);
+        for (int d = 0; d < D; ++d) point[d] += static_cast<T>(shift[d]);
+        nearest.offer(point, node);
+      }
+    });
+  }
+  static Vec<D, T> position_in_block(std::size_t i) {
+    Vec<D, T> x;
+    for (int d = 0; d < D; ++d) {
+      x[d] = static_cast<T>(i % Band::extent);
+      i /= Band::extent;
+    }
+    return x;
+  }
+  /// The other nodes search from the nearest of those points.
+  template <Execution E>
+  void search_far(const Band& band, const E& execution) {
+    const auto halo = static_cast<std::ptrdiff_t>(std::ceil(width_)) + 1 + stencil;
+    nearest_.resize(static_cast<std::size_t>(execution.count()));
+    for_each_patch(band, halo, execution, [&](const auto& patch, std::size_t b, std::size_t worker) {
+      detail::NearestCandidates<T, D>& nearest = nearest_[worker];
+      nearest.reset(width_ + T(0.3));  // the point that a node starts from is a little further than its own
+      offer_near(band, b, nearest);
+      for (std::size_t i = 0; i < Band::volume; ++i) {
+        const std::size_t to = b * Band::volume + i;
+        if (method_[to] != unknown || !nearest.found(i)) continue;
+        if (!band.lattice().contains(band.values().node(b, i))) continue;
+        const Vec<D, T> x = patch.position(patch.entry(i));
+        Vec<D, T> y = x + nearest.point(i) - position_in_block(i);
+        method_[to] = search<K, M4Prime, Hat>(patch, x, y, width_ + T(1), T(0.01), nullptr);
+        error_[to] = error_[nearest.source(i)];
+        set_offset(to, y - x);
+      }
+    });
+  }
+  void count() {
+    counts_ = {};
+    for (std::size_t at = 0; at < method_.size(); ++at) {
+      if (method_[at] == unknown) continue;
+      ++counts_.nodes;
+      if (method_[at] == not_searched) {
+        ++counts_.not_searched;
+      } else if (method_[at] > 0) {
+        ++counts_.lower_order;
+      }
+    }
+  }
+
+  T width_{};
+  std::array<AlignedVector<T>, D> offset_;
+  AlignedVector<T> error_;
+  std::vector<std::uint8_t> method_;
+  std::vector<std::size_t> near_;
+  std::vector<std::size_t> near_begin_;
+  std::vector<detail::NearestCandidates<T, D>> nearest_;
+  std::vector<Patch<T, D>> patches_;
+  ClosestPointCounts counts_;
+};
+
+}  // namespace cambium
