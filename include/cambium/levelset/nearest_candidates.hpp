@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <cambium/levelset/narrow_band.hpp>
+#include <cambium/levelset/point_bins.hpp>
 
 namespace cambium::detail {
 
@@ -78,37 +79,14 @@ class NearestCandidates {
   std::vector<std::size_t> sources_;
 };
 
-/// Calls f(block, shift) for every stored block with nodes within `reach` nodes of block b, itself included; shift is
-/// the first node of that block minus that of b, across periodic faces if need be.
+/// Calls f(block, shift) for every stored block with nodes within `reach` nodes of block b; see for_each_block_within.
 template <class T, int D, class F>
 void for_each_block_around(const NarrowBand<T, D>& band, std::size_t b, std::ptrdiff_t reach, F&& f) {
-  constexpr std::ptrdiff_t extent = NarrowBand<T, D>::extent;
-  const Index<D>& grid = band.values().block_grid();
-  Index<D> blocks_ahead, width;
-  for (int d = 0; d < D; ++d) {
-    // The last block of a periodic axis may be a thin one.
-    const bool thin = band.lattice().periodic(d) && band.lattice().nodes()[d] % extent != 0;
-    blocks_ahead[d] = (reach + extent - 1) / extent + (thin ? 1 : 0);
-    width[d] = 2 * blocks_ahead[d] + 1;
-  }
-  for (std::ptrdiff_t k = 0; k < product(width); ++k) {
-    Index<D> block = band.values().block_index(b);
-    Index<D> shift;
-    std::ptrdiff_t rest = k;
-    bool exists = true;
-    for (int d = 0; d < D; ++d) {
-      const std::ptrdiff_t origin = block[d] * extent;
-      block[d] += rest % width[d] - blocks_ahead[d];
-      rest /= width[d];
-      const bool outside = block[d] < 0 || block[d] >= grid[d];
-      exists &= !outside || band.lattice().periodic(d);
-      const std::ptrdiff_t periods = block[d] >= 0 ? block[d] / grid[d] : (block[d] + 1) / grid[d] - 1;
-      block[d] -= periods * grid[d];
-      shift[d] = block[d] * extent + periods * band.lattice().nodes()[d] - origin;
-    }
-    const std::ptrdiff_t other = exists ? band.values().find(block) : -1;
-    if (other >= 0) f(static_cast<std::size_t>(other), shift);
-  }
+  for_each_block_within(band.lattice(), band.values().block_index(b), reach,
+                        [&](const Index<D>& block, const Index<D>& shift) {
+                          const std::ptrdiff_t other = band.values().find(block);
+                          if (other >= 0) f(static_cast<std::size_t>(other), shift);
+                        });
 }
 
 }  // namespace cambium::detail

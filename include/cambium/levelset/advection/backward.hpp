@@ -1,0 +1,253 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <cambium/levelset/front.hpp>
+#include <cambium/levelset/level_set.hpp>
+#include <cambium/time/rk4.hpp>
+
+namespace cambium {
+
+/// Options of Backward.
+struct BackwardParams {
+  /// Steps of the stepper in one step of the level set.
+  int substeps = 1;
+  /// phi is made a distance again when |grad phi| next to the interface is off by so many octaves, in the mean.
+  double octaves = 1.0;
+  /// A step that pulls neighbouring points of the interface further apart than so many spacings is cut in two.
+  double longest_stretch = 4.0;
+};
+
+/// What a step did.
+struct AdvectionReport {
+  std::size_t steps = 0;              ///< interpolations of phi: more than one if the step was cut
+  std::size_t reinitialisations = 0;  ///< of these, how many were followed by a reinitialisation
+  Slopes slopes;                      ///< |grad phi| next to the interface at the end, before a reinitialisation
+};
+
+/// Lagrangian advection by long steps. Particles that will be at the nodes of the new band are followed back to where
+/// they come from and bring phi from there, interpolated by kernel K.
+///
+/// The step is bound neither by a CFL number nor by the strain: particles arrive on the lattice, so that there is
+/// nothing to remesh, and the fewer steps, the fewer interpolations. phi is made a distance again only when the
+/// diagnostic asks.
+template <class K = Lambda<4, 4>, template <class, class> class S = RK4>
+class Backward {
+ public:
+  using Params = BackwardParams;
+
+  /// \throws ValueError for options out of range
+  explicit Backward(const Params& params = {}) : params_(params) {
+    if (params.substeps < 1 || !(params.octaves > 0.0) || !(params.longest_stretch > 1.0)) {
+      throw ValueError(detail::message("backward advection with ", params.substeps, " substeps, slopes off by ",
+                                       params.octaves, " octaves and longest stretch ", params.longest_stretch,
+                                       ": they must be at least 1, above 0 and above 1"));
+    }
+  }
+
+  /// Advances the interface from t to t + dt with velocity(Vec<D, T> x, double time) -> Vec<D, T>, called by several
+  /// threads. \throws PositionError if the interface's surroundings come from outside a bounded box, InterfaceError if
+  /// it reaches its wall or vanishes; the level set is then as after the last part of the step that succeeded
+  template <class Reinit, int D, class T, class V, Execution E = OpenMP>
+  AdvectionReport step(LevelSet<Reinit, D, T>& level_set, V&& velocity, double t, double dt, const E& execution = {}) {
+    detail::require_step(t, dt);
+    AdvectionReport report;
+    Work<T, D> work(static_cast<std::size_t>(execution.count()));
+    advance(level_set, velocity, t, dt, execution, work, report);
+    return report;
+  }
+
+ private:
+  /// Particles are followed in groups of this size, so that steppers keep their buffers.
+  static constexpr std::size_t group = 64;
+  /// Distance from the interface, in spacings, up to which phi must be right for the stencils of the next step.
+  static constexpr double clean = 5.0;
+
+  template <class T, int D>
+  struct Worker {
+    Worker() : stepper(positions(), Serial{}) {}
+    Columns<D, T> positions() {
+      std::array<T*, D> first;
+      for (int d = 0; d < D; ++d) first[d] = x[d].data();
+      return {first, group};
+    }
+    std::array<std::array<T, group>, D> x{};
+    S<Columns<D, T>, Serial> stepper;
+    detail::NearestCandidates<T, D> nearest;
+    Patch<T, D> patch;
+    std::vector<std::size_t> node;
+    std::vector<Vec<D, T>> from;
+  };
+  template <class T, int D>
+  struct Work {
+    explicit Work(std::size_t workers) : worker(workers) {}
+    Front<T, D> front;
+    detail::PointBins<T, D> bins;
+    std::vector<Worker<T, D>> worker;
+  };
+
+  template <class L, class V, class E, class T, int D>
+  void advance(L& level_set, V&& velocity, double t, double dt, const E& execution, Work<T, D>& work,
+               AdvectionReport& report) const {
+    const Lattice<D>& lattice = level_set.lattice();
+    work.front.take(level_set.band(), execution);
+    push(work, velocity, t, dt, execution);
+    const double stretch = work.front.stretch(lattice.spacing());
+    if (stretch > params_.longest_stretch) {
+      advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
+      advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
+      return;
+    }
+    // A point of the interface is at most half of a stretched diagonal away from a point of the front.
+    const double radius = clean + 0.5 * std::sqrt(static_cast<double>(D)) * std::max(stretch, 1.0);
+    arrive(level_set, velocity, t, dt, radius, execution, work);
+    ++report.steps;
+    work.front.take(level_set.band(), execution);
+    report.slopes = work.front.slopes();
+    if (report.slopes.mean_octaves > params_.octaves) {
+      level_set.reinitialise(execution);
+      ++report.reinitialisations;
+    } else {
+      level_set.trim();
+    }
+  }
+
+  /// Moves the front from t to t + dt.
+  template <class T, int D, class V, class E>
+  void push(Work<T, D>& work, V&& velocity, double t, double dt, const E& execution) const {
+    const Columns<D, T> x = work.front.positions();
+    for_each_piece_by_worker(execution, x.size(), group, [&](std::size_t w, std::size_t begin, std::size_t end) {
+      Worker<T, D>& worker = work.worker[w];
+      for (std::size_t k = 0; k < group; ++k) worker.positions().set(k, x[std::min(begin + k, end - 1)]);
+      follow(worker, velocity, t, dt, 1.0);
+      for (std::size_t p = begin; p < end; ++p) x.set(p, worker.positions()[p - begin]);
+    });
+    work.bins.fill(work.front.lattice(), x);
+  }
+  /// Moves a worker's particles by dt along `way` times the velocity, from time t on: way = -1 goes back in time.
+  template <class T, int D, class V>
+  void follow(Worker<T, D>& worker, V&& velocity, double t, double dt, double way) const {
+    const double part = dt / params_.substeps;
+    for (int s = 0; s < params_.substeps; ++s) {
+      worker.stepper.step(worker.positions(), s * part, part, [&](const auto& x, double since, auto&& rate) {
+        for (std::size_t p = 0; p < x.size(); ++p) {
+          const Vec<D, T> u = velocity(x[p], t + way * since);
+          rate.set(p, static_cast<T>(way) * u);
+        }
+      });
+    }
+  }
+
+  /// phi of the nodes within `radius` of the front that was moved.
+  template <class L, class V, class E, class T, int D>
+  void arrive(L& level_set, V&& velocity, double t, double dt, double radius, const E& execution,
+              Work<T, D>& work) const {
+    const NarrowBand<T, D>& old = level_set.band();
+    const auto reach = static_cast<std::ptrdiff_t>(std::ceil(radius));
+    level_set.replace(
+        [&](detail::BlockMarks<D>& marks) {
+          const Columns<D, T> x = work.front.positions();
+          for (std::size_t p = 0; p < x.size(); ++p) {
+            const Vec<D, T> u = work.bins.spacings(old.lattice(), x[p]);
+            Index<D> low, high;
+            for (int d = 0; d < D; ++d) {
+              low[d] = static_cast<std::ptrdiff_t>(std::ceil(u[d] - static_cast<T>(radius)));
+              high[d] = static_cast<std::ptrdiff_t>(std::floor(u[d] + static_cast<T>(radius)));
+            }
+            marks.mark(low, high);
+          }
+        },
+        [&](NarrowBand<T, D>& band, std::size_t b, std::size_t w) {
+          Worker<T, D>& worker = work.worker[w];
+          find_near(band, b, work.bins, radius, reach, worker);
+          come_from(band, b, velocity, t + dt, dt, worker);
+          bring(old, band, b, worker);
+        },
+        execution);
+  }
+  /// Nodes of block b that are near the front; one node, whose side all of them have, if there is none.
+  template <class T, int D>
+  static void find_near(const NarrowBand<T, D>& band, std::size_t b, const detail::PointBins<T, D>& bins, double radius,
+                        std::ptrdiff_t reach, Worker<T, D>& worker) {
+    worker.nearest.reset(static_cast<T>(radius));
+    const Index<D> block = band.values().block_index(b);
+    detail::for_each_block_within(band.lattice(), block, reach, [&](const Index<D>& other, const Index<D>& shift) {
+      for (const Vec<D, T>& point : bins[other]) {
+        Vec<D, T> local;
+        for (int d = 0; d < D; ++d) {
+          local[d] = point[d] - static_cast<T>(other[d] * BlockShape<D>::extent - shift[d]);
+        }
+        worker.nearest.offer(local, 0);
+      }
+    });
+    worker.node.clear();
+    for (std::size_t i = 0; i < band.volume; ++i) {
+      if (worker.nearest.found(i) && band.lattice().contains(band.values().node(b, i))) worker.node.push_back(i);
+    }
+    if (worker.node.empty()) worker.node.push_back(0);
+  }
+  /// Where the particles that arrive at those nodes at `time` were dt ago, in spacings from the first node.
+  template <class T, int D, class V>
+  void come_from(const NarrowBand<T, D>& band, std::size_t b, V&& velocity, double time, double dt,
+                 Worker<T, D>& worker) const {
+    const Lattice<D>& lattice = band.lattice();
+    worker.from.resize(worker.node.size());
+    for (std::size_t begin = 0; begin < worker.node.size(); begin += group) {
+      const std::size_t end = std::min(worker.node.size(), begin + group);
+      for (std::size_t k = 0; k < group; ++k) {
+        const Vec<D> x = lattice.position(band.values().node(b, worker.node[std::min(begin + k, end - 1)]));
+        for (int d = 0; d < D; ++d) worker.x[d][k] = static_cast<T>(x[d]);
+      }
+      follow(worker, velocity, time, dt, -1.0);
+      for (std::size_t p = begin; p < end; ++p) {
+        const Vec<D, T> x = worker.positions()[p - begin];
+        require_inside(lattice, x);
+        for (int d = 0; d < D; ++d) {
+          worker.from[p][d] = static_cast<T>((static_cast<double>(x[d]) - lattice.box().lo[d]) / lattice.spacing());
+        }
+      }
+    }
+  }
+  template <class T, int D>
+  static void require_inside(const Lattice<D>& lattice, const Vec<D, T>& x) {
+    for (int d = 0; d < D; ++d) {
+      const double slack = 1e-6 * lattice.spacing();
+      const bool inside = x[d] >= lattice.box().lo[d] - slack && x[d] <= lattice.box().hi[d] + slack;
+      if (std::isfinite(x[d]) && (inside || lattice.periodic(d))) continue;
+      throw PositionError(detail::message("a particle next to the interface comes from ", x,
+                                          ", outside the box along axis ", d,
+                                          ": enlarge the box, or check the velocity"));
+    }
+  }
+  /// phi at the worker's nodes of block b := phi of the old band where they come from.
+  template <class T, int D>
+  static void bring(const NarrowBand<T, D>& old, NarrowBand<T, D>& band, std::size_t b, Worker<T, D>& worker) {
+    Index<D> low = Index<D>::constant(std::numeric_limits<std::ptrdiff_t>::max());
+    Index<D> high = Index<D>::constant(std::numeric_limits<std::ptrdiff_t>::min());
+    for (const Vec<D, T>& from : worker.from) {
+      for (int d = 0; d < D; ++d) {
+        const auto cell = static_cast<std::ptrdiff_t>(std::floor(from[d]));
+        low[d] = std::min(low[d], cell - K::support / 2);
+        high[d] = std::max(high[d], cell + 1 + K::support / 2);
+      }
+    }
+    worker.patch.read(old, low, high - low + Index<D>::constant(1));
+    const auto phi = band.values().block(b);
+    std::fill(phi.begin(), phi.end(), std::numeric_limits<T>::quiet_NaN());
+    for (std::size_t p = 0; p < worker.node.size(); ++p) {
+      Vec<D, T> u;
+      for (int d = 0; d < D; ++d) u[d] = worker.from[p][d] - static_cast<T>(low[d]);
+      phi[worker.node[p]] = Interpolant<K, T, D>::value(worker.patch.data(), worker.patch.stride(), u);
+    }
+  }
+
+  Params params_;
+};
+
+}  // namespace cambium
