@@ -54,8 +54,9 @@ class Backward {
   /// Advances the interface from t to t + dt with velocity(Vec<D, T> x, double time) -> Vec<D, T>, called by several
   /// threads. \throws PositionError if the interface's surroundings come from outside a bounded box, InterfaceError if
   /// it reaches its wall or vanishes; the level set is then as after the last part of the step that succeeded
-  template <class Reinit, int D, class T, class V, Execution E = OpenMP>
-  AdvectionReport step(LevelSet<Reinit, D, T>& level_set, V&& velocity, double t, double dt, const E& execution = {}) {
+  template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
+  AdvectionReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
+                       const E& execution = {}) {
     detail::require_step(t, dt);
     AdvectionReport report;
     Work<T, D> work(static_cast<std::size_t>(execution.count()));
@@ -99,11 +100,8 @@ class Backward {
     work.front.take(level_set.band(), execution);
     push(work, velocity, t, dt, execution);
     const double stretch = work.front.stretch(lattice.spacing());
-    if (stretch > params_.longest_stretch) {
-      advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
-      advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
-      return;
-    }
+    if (stretch > params_.longest_stretch)
+      return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
     // A point of the interface is at most half of a stretched diagonal away from a point of the front.
     const double radius = clean + 0.5 * std::sqrt(static_cast<double>(D)) * std::max(stretch, 1.0);
     arrive(level_set, velocity, t, dt, radius, execution, work);
@@ -114,10 +112,16 @@ class Backward {
       level_set.reinitialise(execution);
       ++report.reinitialisations;
     } else {
-      level_set.trim();
+      level_set.restore_band(execution);
     }
   }
 
+  template <class L, class V, class E, class T, int D>
+  void advance_by_halves(L& level_set, V&& velocity, double t, double dt, const E& execution, Work<T, D>& work,
+                         AdvectionReport& report) const {
+    advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
+    advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
+  }
   /// Moves the front from t to t + dt.
   template <class T, int D, class V, class E>
   void push(Work<T, D>& work, V&& velocity, double t, double dt, const E& execution) const {
