@@ -41,6 +41,12 @@ auto every(V a, V b, std::index_sequence<I...>) {
   return __builtin_shufflevector(a, b, static_cast<int>(I * W)...);
 }
 
+/// Entry First, W times, then the next one, W times, ...
+template <std::size_t W, std::size_t First, class V, std::size_t... I>
+auto repeat(V a, std::index_sequence<I...>) {
+  return __builtin_shufflevector(a, a, static_cast<int>(First + I / W)...);
+}
+
 }  // namespace detail
 
 /// Moves one lane out of a row of nodes of W lanes each: out[i] := nodes[i W + lane] and nodes[i W + lane] := 0.
@@ -75,7 +81,30 @@ void take_lane(T* nodes, std::size_t lane, std::size_t count, T* out) {
 /// Puts values into one lane of a row of nodes of W lanes each: nodes[i W + lane] := values[i].
 template <std::size_t W, class T>
 void put_lane(const T* values, std::size_t lane, std::size_t count, T* nodes) {
-  for (std::size_t i = 0; i < count; ++i) nodes[i * W + lane] = values[i];
+  std::size_t i = 0;
+  if constexpr (2 * W * sizeof(T) <= 64 && detail::widest<T, 64 / sizeof(T)>() * sizeof(T) == 64) {
+    using Wide = detail::WideVector<T, 64>;
+    constexpr std::size_t held = Wide::lanes / W;  // nodes in a vector
+    std::array<typename Wide::Integer, Wide::lanes> others;
+    for (std::size_t l = 0; l < Wide::lanes; ++l) others[l] = l % W == lane ? 0 : -1;
+    typename Wide::Bits keep;
+    std::memcpy(&keep, others.data(), 64);
+    for (; i + Wide::lanes <= count; i += Wide::lanes) {
+      const auto put = Wide::load_bits(values + i);
+      const auto one = [&]<std::size_t Q>(std::integral_constant<std::size_t, Q>) {
+        T* to = nodes + i * W + Q * Wide::lanes;
+        const auto spread = detail::repeat<W, Q * held>(put, std::make_index_sequence<Wide::lanes>{});
+        const auto mixed = (Wide::load_bits(to) & keep) | (spread & ~keep);
+        std::memcpy(to, &mixed, 64);
+      };
+      [&]<std::size_t... Q>(std::index_sequence<Q...>) { (one(std::integral_constant<std::size_t, Q>{}), ...); }
+      (std::make_index_sequence<W>{});
+    }
+  }
+  for (; i < count; ++i) {
+    __builtin_prefetch(nodes + (i + 16) * W, 1);  // stores do not make the processor fetch ahead
+    nodes[i * W + lane] = values[i];
+  }
 }
 
 }  // namespace cambium::simd
