@@ -33,6 +33,15 @@ struct WideVector {
     std::memcpy(&v, from, Bytes);
     return v;
   }
+  /// All bits but those of one lane of each node of W lanes.
+  template <std::size_t W>
+  static Bits mask_without(std::size_t lane) {
+    std::array<Integer, lanes> others;
+    for (std::size_t l = 0; l < lanes; ++l) others[l] = l % W == lane ? 0 : -1;
+    Bits mask;
+    std::memcpy(&mask, others.data(), Bytes);
+    return mask;
+  }
 };
 
 /// Entry 0, W, 2 W, ... of two vectors.
@@ -59,10 +68,7 @@ void take_lane(T* nodes, std::size_t lane, std::size_t count, T* out) {
   if constexpr (2 * W * sizeof(T) <= 64 && detail::widest<T, 64 / sizeof(T)>() * sizeof(T) == 64) {
     using Wide = detail::WideVector<T, 64>;
     constexpr std::size_t held = Wide::lanes / W;  // nodes in a vector
-    std::array<typename Wide::Integer, Wide::lanes> others;
-    for (std::size_t l = 0; l < Wide::lanes; ++l) others[l] = l % W == lane ? 0 : -1;
-    typename Wide::Bits keep;
-    std::memcpy(&keep, others.data(), 64);
+    const auto keep = Wide::template mask_without<W>(lane);
     for (; i + 2 * held <= count; i += 2 * held) {
       T* first = nodes + i * W;
       T* second = first + Wide::lanes;
@@ -85,10 +91,7 @@ void put_lane(const T* values, std::size_t lane, std::size_t count, T* nodes) {
   if constexpr (2 * W * sizeof(T) <= 64 && detail::widest<T, 64 / sizeof(T)>() * sizeof(T) == 64) {
     using Wide = detail::WideVector<T, 64>;
     constexpr std::size_t held = Wide::lanes / W;  // nodes in a vector
-    std::array<typename Wide::Integer, Wide::lanes> others;
-    for (std::size_t l = 0; l < Wide::lanes; ++l) others[l] = l % W == lane ? 0 : -1;
-    typename Wide::Bits keep;
-    std::memcpy(&keep, others.data(), 64);
+    const auto keep = Wide::template mask_without<W>(lane);
     for (; i + Wide::lanes <= count; i += Wide::lanes) {
       const auto put = Wide::load_bits(values + i);
       const auto one = [&]<std::size_t Q>(std::integral_constant<std::size_t, Q>) {
