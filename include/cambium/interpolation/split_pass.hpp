@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include <cambium/interpolation/closure.hpp>
+#include <cambium/simd/pack.hpp>
+#include <cambium/simd/transpose.hpp>
 
 namespace cambium::detail {
 
@@ -35,6 +38,7 @@ class SplitPass {
   static constexpr int fields = moved + (Carried > 0 ? 1 : 0);
   static constexpr std::size_t support = K::support;
   static constexpr std::size_t wide = simd::native_lanes<T>;
+  static constexpr int entries = 8;
   /// A node that gets less than this sum of weights has lost its particles.
   static constexpr T smallest_weight = T(0.1);
 
@@ -44,7 +48,8 @@ class SplitPass {
 
   /// Values of scratch that a call needs.
   std::size_t scratch_size() const {
-    return static_cast<std::size_t>(close_.nodes()) * static_cast<std::size_t>(fields + moved + 1) * wide;
+    const auto n = static_cast<std::size_t>(close_.nodes());
+    return ((n + ends) * fields + n * (moved + 1)) * wide;
   }
 
   /// \param displacement along the axis, in spacings, laid out as `from` says
@@ -55,7 +60,7 @@ class SplitPass {
   void operator()(const LineTile& from, const T* displacement, const std::array<const T*, moved>& in,
                   const LineTile& to, const std::array<T*, moved>& out, T* scratch) const {
     const auto lanes = static_cast<std::ptrdiff_t>(wide);
-    if (from.lines < lanes) {
+    if (std::min(from.lines, close_.nodes()) < lanes) {
       for (std::ptrdiff_t l = 0; l < from.lines; ++l) move<1>(l, from, displacement, in, to, out, scratch);
       return;
     }
@@ -68,6 +73,14 @@ class SplitPass {
  private:
   template <std::size_t L>
   using Lanes = simd::Pack<T, L>;
+  /// Nodes beyond the ends of a line that entries reach: in front of it and behind it if bounded, all behind if
+  /// periodic.
+  static constexpr int ends = Taps<K>::support + entries;
+  /// Cell of an entry and where the sums of the first node under the kernel are.
+  struct Place {
+    T cell;
+    std::ptrdiff_t first;
+  };
 
   /// Moves L lines from line l on.
   template <std::size_t L>
@@ -75,8 +88,9 @@ class SplitPass {
             const LineTile& to, const std::array<T*, moved>& out, T* scratch) const {
     const std::ptrdiff_t n = close_.nodes();
     T* sum = scratch;
-    T* line = scratch + static_cast<std::size_t>(n) * fields * L;
-    std::fill_n(sum, static_cast<std::size_t>(n) * fields * L, T(0));
+    const std::size_t sums = static_cast<std::size_t>(n + ends) * fields * L;
+    T* line = scratch + sums;
+    std::fill_n(sum, sums, T(0));
     std::array<const T*, moved + 1> source;
     source[0] = displacement + l * from.across;
     for (std::size_t m = 0; m < moved; ++m) source[m + 1] = in[m] + l * from.across;
@@ -89,7 +103,8 @@ class SplitPass {
       step = static_cast<std::ptrdiff_t>(L);
     }
     if constexpr (Carried > 0) require_order<L>(source[0], step);
-    for (std::ptrdiff_t i = 0; i < n; ++i) scatter<L>(i, source, i * step, sum);
+    scatter<L>(source, step, sum);
+    sum = close_ends<L>(sum);
     if constexpr (Carried > 0) renormalise<L>(sum);
     for (std::size_t m = 0; m < moved; ++m) write<L>(sum + m * L, to, out[m] + l * to.across);
   }
@@ -118,52 +133,96 @@ class SplitPass {
   /// L rows of contiguous entries -> entries of all L rows side by side.
   template <std::size_t L>
   void interleave(const T* row, std::ptrdiff_t across, T* line) const {
-    for (std::size_t l = 0; l < L; ++l, row += across) {
-      for (std::ptrdiff_t i = 0; i < close_.nodes(); ++i) line[static_cast<std::size_t>(i) * L + l] = row[i];
-    }
+    const auto lanes = static_cast<std::ptrdiff_t>(L);
+    for_each_block<L>([&](std::ptrdiff_t i) { simd::transpose<L>(row + i, across, line + i * lanes, lanes); });
+  }
+  /// Calls f(i) for blocks of L entries from i on that cover a line; the last is moved back to be full.
+  template <std::size_t L, class F>
+  void for_each_block(F&& f) const {
+    const auto lanes = static_cast<std::ptrdiff_t>(L);
+    for (std::ptrdiff_t i = 0; i < close_.nodes(); i += lanes) f(std::min(i, close_.nodes() - lanes));
   }
   template <std::size_t L>
   void write(const T* sum, const LineTile& to, T* out) const {
     const auto n = static_cast<std::size_t>(close_.nodes());
+    constexpr auto pitch = static_cast<std::ptrdiff_t>(fields * L);
     if (L > 1 && to.across != 1) {
-      for (std::size_t l = 0; l < L; ++l, out += to.across) {
-        for (std::size_t i = 0; i < n; ++i) out[i] = sum[i * fields * L + l];
-      }
+      for_each_block<L>([&](std::ptrdiff_t i) { simd::transpose<L>(sum + i * pitch, pitch, out + i, to.across); });
     } else {
       for (std::size_t i = 0; i < n; ++i, out += to.along) Lanes<L>::load_aligned(sum + i * fields * L).store(out);
     }
   }
 
-  /// Gives entry i of L lines to the nodes around where it has gone.
+  /// Entries that are given to nodes together, and their weights, each lane's moved by a tap if it is one cell further.
   template <std::size_t L>
-  void scatter(std::ptrdiff_t i, const std::array<const T*, moved + 1>& source, std::ptrdiff_t at, T* sum) const {
+  struct Block {
+    std::ptrdiff_t first[entries];  // where the sums of the first node of each entry are
+    Lanes<L> weight[entries][support + 1];
+  };
+
+  /// Gives the entries of L lines to the nodes around where they have gone.
+  template <std::size_t L>
+  void scatter(const std::array<const T*, moved + 1>& source, std::ptrdiff_t step, T* sum) const {
+    const std::ptrdiff_t n = close_.nodes();
+    Block<L> block;
+    Place place = {std::numeric_limits<T>::infinity(), 0};
+    for (std::ptrdiff_t i = 0; i < n; i += entries) {
+      if (close_.periodic() && place.first >= n) place.first %= n;
+      std::array<const T*, moved> value;
+      for (std::size_t m = 0; m < moved; ++m) value[m] = source[m + 1] + i * step;
+      const int count = static_cast<int>(std::min<std::ptrdiff_t>(entries, n - i));
+      bool in_step = count == entries;
+      for (int e = 0; e < count; ++e) {
+        in_step &= weigh<L>(i + e, source, (i + e) * step, place, block.weight[e], sum) || e == 0;
+        block.first[e] = place.first;
+      }
+      if (in_step) {
+        add_block<L, 0>(block, value, step, sum);
+      } else {
+        for (int e = 0; e < count; ++e) add<L, support + 1>(block.first[e], block.weight[e], value, e * step, sum);
+      }
+    }
+  }
+  /// Place and weights of entry i. The lanes are expected in the cell after the one that the entry before was in, or
+  /// one further: nodes are then known before displacements are. \return whether they are there
+  template <std::size_t L>
+  [[gnu::always_inline]] bool weigh(std::ptrdiff_t i, const std::array<const T*, moved + 1>& source, std::ptrdiff_t at,
+                                    Place& place, Lanes<L> (&wider)[support + 1], T* sum) const {
     using V = Lanes<L>;
     const V u = V::load(source[0] + at) + V(static_cast<T>(i) + static_cast<T>(Taps<K>::shift));
     V cell = floor(u);
     if (!close_.periodic()) cell = max(min(cell, V(last_cell_)), V(T(0)));
-    V value[fields];
-    for (std::size_t m = 0; m < moved; ++m) value[m] = V::load(source[m + 1] + at);
-    if constexpr (Carried > 0) value[moved] = V(T(1));
     V weight[support];
-    weigh<L>(u - cell - V(T(0.5)), weight);
-    const T lowest = lowest_lane(cell);
-    const auto node = static_cast<std::ptrdiff_t>(lowest) - Taps<K>::before;
-    if (all_equal(cell, V(lowest))) {
-      add<L, support>(node, weight, value, sum);
-    } else if (all_equal(max(cell, V(lowest + T(1))), V(lowest + T(1)))) {
-      V wider[support + 1];  // weights of the lanes that are one cell further, moved by one tap
-      wider[0] = where_equal(cell, V(lowest), weight[0], V(T(0)));
-      for (std::size_t k = 1; k < support; ++k) wider[k] = where_equal(cell, V(lowest), weight[k], weight[k - 1]);
-      wider[support] = where_equal(cell, V(lowest), V(T(0)), weight[support - 1]);
-      add<L, support + 1>(node, wider, value, sum);
-    } else {
-      add_each_cell<L>(cell, weight, value, sum);
+    weights<L>(u - cell - V(T(0.5)), weight);
+    place.cell += T(1);
+    ++place.first;
+    V further = cell - V(place.cell);
+    const bool expected = all_equal(further, further * further);  // 0 or 1
+    if (!expected) {
+      place = find(lowest_lane(cell));
+      further = cell - V(place.cell);
+      if (!all_equal(further, further * further)) {
+        add_each_cell<L>(cell, weight, source, at, sum);
+        for (V& w : wider) w = V(T(0));
+        return false;
+      }
     }
+    wider[0] = where_equal(further, V(T(0)), weight[0], V(T(0)));
+    for (std::size_t k = 1; k < support; ++k) wider[k] = where_equal(further, V(T(0)), weight[k], weight[k - 1]);
+    wider[support] = where_equal(further, V(T(0)), V(T(0)), weight[support - 1]);
+    return expected;
+  }
+  Place find(T cell) const {
+    const auto node = static_cast<std::ptrdiff_t>(cell) - Taps<K>::before;
+    const std::ptrdiff_t n = close_.nodes();
+    return {cell, close_.periodic() ? (node % n + n) % n : node + Taps<K>::before};
   }
   /// The general case: one cell after another, with the weights of lanes in other cells set to zero.
   template <std::size_t L>
-  void add_each_cell(const Lanes<L>& cell, const Lanes<L> (&weight)[support], const Lanes<L> (&value)[fields],
-                     T* sum) const {
+  [[gnu::noinline]] void add_each_cell(const Lanes<L>& cell, const Lanes<L> (&weight)[support],
+                                       const std::array<const T*, moved + 1>& source, std::ptrdiff_t at, T* sum) const {
+    std::array<const T*, moved> value;
+    std::copy_n(source.begin() + 1, moved, value.begin());
     alignas(64) T cells[L];
     cell.store_aligned(cells);
     std::sort(cells, cells + L);
@@ -171,18 +230,29 @@ class SplitPass {
     for (const T* c = cells; c < end; ++c) {
       Lanes<L> masked[support];
       for (std::size_t k = 0; k < support; ++k) masked[k] = where_equal(cell, Lanes<L>(*c), weight[k], Lanes<L>(T(0)));
-      add<L, support>(static_cast<std::ptrdiff_t>(*c) - Taps<K>::before, masked, value, sum);
+      add<L, support>(find(*c).first, masked, value, at, sum);
     }
   }
+  /// Weights of all taps at g. Those of taps k and support - 1 - k have the same even powers of g and opposite odd
+  /// ones.
   template <std::size_t L>
-  static void weigh(const Lanes<L>& g, Lanes<L> (&weight)[support]) {
+  static void weights(const Lanes<L>& g, Lanes<L> (&weight)[support]) {
+    using V = Lanes<L>;
     if constexpr (Taps<K>::polynomial) {
-      for (std::size_t k = 0; k < support; ++k) {
-        Lanes<L> w(static_cast<T>(Taps<K>::coefficients.value[Taps<K>::degree][k]));
-        for (int j = Taps<K>::degree - 1; j >= 0; --j) {
-          w = fma(w, g, Lanes<L>(static_cast<T>(Taps<K>::coefficients.value[j][k])));
+      constexpr int last = Taps<K>::degree;
+      const V square = g * g, minus = V(T(0)) - g;
+      const auto powers = [&](int highest, std::size_t k) {  // highest, highest - 2, ...
+        V sum(static_cast<T>(Taps<K>::coefficients.value[highest][k]));
+        for (int j = highest - 2; j >= 0; j -= 2) {
+          sum = fma(sum, square, V(static_cast<T>(Taps<K>::coefficients.value[j][k])));
         }
-        weight[k] = w;
+        return sum;
+      };
+      for (std::size_t k = 0; k < (support + 1) / 2; ++k) {
+        const V even = powers(last - last % 2, k);
+        const V odd = last > 0 ? powers(last - 1 + last % 2, k) : V(T(0));
+        weight[k] = fma(odd, g, even);
+        weight[support - 1 - k] = fma(odd, minus, even);
       }
     } else {
       alignas(64) T offset[L], lane[support], all[support][L];
@@ -194,28 +264,59 @@ class SplitPass {
       for (std::size_t k = 0; k < support; ++k) weight[k] = Lanes<L>::load(all[k]);
     }
   }
+  /// Adds one entry to the nodes from `first` on.
   template <std::size_t L, std::size_t Count>
-  void add(std::ptrdiff_t node, const Lanes<L> (&weight)[Count], const Lanes<L> (&value)[fields], T* sum) const {
-    const std::ptrdiff_t n = close_.nodes();
-    if (node >= 0 && node + static_cast<std::ptrdiff_t>(Count) <= n) {
-      T* at = sum + static_cast<std::size_t>(node) * fields * L;
-      for (std::size_t k = 0; k < Count; ++k, at += fields * L) add_to<L>(at, weight[k], value);
-      return;
-    }
-    for (std::size_t k = 0; k < Count; ++k) {
-      std::ptrdiff_t i = node + static_cast<std::ptrdiff_t>(k);
-      if (close_.periodic()) i = (i % n + n) % n;
-      close_(i, [&](std::ptrdiff_t to, double w) {
-        add_to<L>(sum + static_cast<std::size_t>(to) * fields * L, weight[k] * Lanes<L>(static_cast<T>(w)), value);
-      });
+  static void add(std::ptrdiff_t first, const Lanes<L> (&weight)[Count], const std::array<const T*, moved>& value,
+                  std::ptrdiff_t at, T* sum) {
+    using V = Lanes<L>;
+    T* node = sum + static_cast<std::size_t>(first) * fields * L;
+    for (std::size_t k = 0; k < Count; ++k, node += fields * L) {
+      for (std::size_t m = 0; m < moved; ++m) {
+        fma(weight[k], V::load(value[m] + at), V::load_aligned(node + m * L)).store_aligned(node + m * L);
+      }
+      if constexpr (Carried > 0) (weight[k] + V::load_aligned(node + moved * L)).store_aligned(node + moved * L);
     }
   }
+  /// Adds a block of entries that follow one another, field M and the ones after it: each sum is read and written once.
+  template <std::size_t L, std::size_t M>
+  static void add_block(const Block<L>& block, const std::array<const T*, moved>& value, std::ptrdiff_t step, T* sum) {
+    using V = Lanes<L>;
+    T* const node = sum + static_cast<std::size_t>(block.first[0]) * fields * L + M * L;
+    V entry[entries];
+    for (int e = 0; e < entries; ++e) entry[e] = M < moved ? V::load(value[M < moved ? M : 0] + e * step) : V(T(1));
+    const auto gather = [&]<std::size_t J>(std::integral_constant<std::size_t, J>) {
+      constexpr int lowest = J > support ? static_cast<int>(J - support) : 0;
+      constexpr int highest = J < entries ? static_cast<int>(J) : entries - 1;
+      V total = V::load_aligned(node + J * fields * L);
+      for (int e = lowest; e <= highest; ++e) {
+        const V& weight = block.weight[e][static_cast<int>(J) - e];
+        total = M < moved ? fma(weight, entry[e], total) : weight + total;
+      }
+      total.store_aligned(node + J * fields * L);
+    };
+    [&]<std::size_t... J>(std::index_sequence<J...>) { (gather(std::integral_constant<std::size_t, J>{}), ...); }
+    (std::make_index_sequence<entries + support>{});
+    if constexpr (M + 1 < fields) add_block<L, M + 1>(block, value, step, sum);
+  }
+  /// Gives what came to nodes beyond the ends to those they stand for. \return the sums of node 0
   template <std::size_t L>
-  static void add_to(T* at, const Lanes<L>& weight, const Lanes<L> (&value)[fields]) {
-    for (std::size_t m = 0; m < moved; ++m) {
-      fma(weight, value[m], Lanes<L>::load_aligned(at + m * L)).store_aligned(at + m * L);
-    }
-    if constexpr (Carried > 0) (weight + Lanes<L>::load_aligned(at + moved * L)).store_aligned(at + moved * L);
+  T* close_ends(T* sum) const {
+    const std::ptrdiff_t n = close_.nodes();
+    const std::ptrdiff_t margin = close_.periodic() ? 0 : Taps<K>::before;
+    T* node = sum + static_cast<std::size_t>(margin) * fields * L;
+    const auto give = [&](std::ptrdiff_t i) {
+      close_(close_.periodic() ? i % n : i, [&](std::ptrdiff_t to, double w) {
+        for (std::size_t m = 0; m < fields; ++m) {
+          const auto at = static_cast<std::ptrdiff_t>(m * L), size = static_cast<std::ptrdiff_t>(fields * L);
+          const auto given = Lanes<L>::load_aligned(node + i * size + at);
+          fma(given, Lanes<L>(static_cast<T>(w)), Lanes<L>::load_aligned(node + to * size + at))
+              .store_aligned(node + to * size + at);
+        }
+      });
+    };
+    for (std::ptrdiff_t i = -margin; i < 0; ++i) give(i);
+    for (std::ptrdiff_t i = n; i < n + ends - margin; ++i) give(i);
+    return node;
   }
   /// Carried values := sums / sum of weights.
   template <std::size_t L>
