@@ -102,16 +102,14 @@ class SplitPass {
       }
       step = static_cast<std::ptrdiff_t>(L);
     }
-    if constexpr (Carried > 0) require_order<L>(source[0], step);
     scatter<L>(source, step, sum);
     sum = close_ends<L>(sum);
-    if constexpr (Carried > 0) renormalise<L>(sum);
-    for (std::size_t m = 0; m < moved; ++m) write<L>(sum + m * L, to, out[m] + l * to.across);
+    write<L>(sum, to, l, out);
   }
   /// Values can be carried only if no particle of a line has passed the next: 1 + d(displacement)/dx > 0. On periodic
   /// axes displacements are known up to a period.
   template <std::size_t L>
-  void require_order(const T* displacement, std::ptrdiff_t step) const {
+  [[gnu::noinline]] void require_order(const T* displacement, std::ptrdiff_t step) const {
     const std::ptrdiff_t n = close_.nodes();
     const Lanes<L> period(close_.periodic() ? static_cast<T>(n) : T(0));
     const Lanes<L> per_period(close_.periodic() ? T(1) / static_cast<T>(n) : T(0));
@@ -142,17 +140,30 @@ class SplitPass {
     const auto lanes = static_cast<std::ptrdiff_t>(L);
     for (std::ptrdiff_t i = 0; i < close_.nodes(); i += lanes) f(std::min(i, close_.nodes() - lanes));
   }
+  /// Writes L lines from line l on, a block of nodes after the other, renormalised.
   template <std::size_t L>
-  void write(const T* sum, const LineTile& to, T* out) const {
-    const auto n = static_cast<std::size_t>(close_.nodes());
-    constexpr auto pitch = static_cast<std::ptrdiff_t>(fields * L);
-    if (L > 1 && to.across != 1) {
-      for_each_block<L>([&](std::ptrdiff_t i) { simd::transpose<L>(sum + i * pitch, pitch, out + i, to.across); });
-    } else {
-      for (std::size_t i = 0; i < n; ++i, out += to.along) Lanes<L>::load_aligned(sum + i * fields * L).store(out);
+  void write(T* sum, const LineTile& to, std::ptrdiff_t l, const std::array<T*, moved>& out) const {
+    constexpr auto pitch = static_cast<std::ptrdiff_t>(fields * L), lanes = static_cast<std::ptrdiff_t>(L);
+    Lanes<L> lowest(T(1));
+    for (std::ptrdiff_t i = 0; i < close_.nodes(); i += lanes) {
+      const std::ptrdiff_t end = std::min(i + lanes, close_.nodes());
+      if constexpr (Carried > 0) {
+        for (std::ptrdiff_t j = i; j < end; ++j) lowest = min(lowest, renormalise<L>(sum + j * pitch));
+      }
+      for (std::ptrdiff_t m = 0; m < moved; ++m) {
+        T* line = out[m] + l * to.across;
+        if (L > 1 && to.across != 1) {
+          const std::ptrdiff_t first = end - lanes;
+          simd::transpose<L>(sum + first * pitch + m * lanes, pitch, line + first, to.across);
+        } else {
+          for (std::ptrdiff_t j = i; j < end; ++j) {
+            Lanes<L>::load_aligned(sum + j * pitch + m * lanes).store(line + j * to.along);
+          }
+        }
+      }
     }
+    if constexpr (Carried > 0) require_weight(lowest_lane(lowest));
   }
-
   /// Entries that are given to nodes together, and their weights, each lane's moved by a tap if it is one cell further.
   template <std::size_t L>
   struct Block {
@@ -163,9 +174,11 @@ class SplitPass {
   /// Gives the entries of L lines to the nodes around where they have gone.
   template <std::size_t L>
   void scatter(const std::array<const T*, moved + 1>& source, std::ptrdiff_t step, T* sum) const {
+    using V = Lanes<L>;
     const std::ptrdiff_t n = close_.nodes();
     Block<L> block;
     Place place = {std::numeric_limits<T>::infinity(), 0};
+    Lanes<L> before = Lanes<L>::load(source[0]), least(T(0)), most(T(0));
     for (std::ptrdiff_t i = 0; i < n; i += entries) {
       if (close_.periodic() && place.first >= n) place.first %= n;
       std::array<const T*, moved> value;
@@ -175,12 +188,21 @@ class SplitPass {
       for (int e = 0; e < count; ++e) {
         in_step &= weigh<L>(i + e, source, (i + e) * step, place, block.weight[e], sum) || e == 0;
         block.first[e] = place.first;
+        if constexpr (Carried > 0) {
+          const Lanes<L> here = Lanes<L>::load(source[0] + (i + e) * step);
+          least = min(least, here - before);
+          most = max(most, here - before);
+          before = here;
+        }
       }
       if (in_step) {
         add_block<L, 0>(block, value, step, sum);
       } else {
         for (int e = 0; e < count; ++e) add<L, support + 1>(block.first[e], block.weight[e], value, e * step, sum);
       }
+    }
+    if constexpr (Carried > 0) {
+      if (!(lowest_lane(min(least, V(T(0)) - most)) > T(-1))) require_order<L>(source[0], step);
     }
   }
   /// Place and weights of entry i. The lanes are expected in the cell after the one that the entry before was in, or
@@ -318,20 +340,17 @@ class SplitPass {
     for (std::ptrdiff_t i = n; i < n + ends - margin; ++i) give(i);
     return node;
   }
-  /// Carried values := sums / sum of weights.
+  /// Carried values of a node := sums / sum of weights, which is returned.
   template <std::size_t L>
-  void renormalise(T* sum) const {
-    Lanes<L> lowest(T(1));
-    T* at = sum;
-    for (std::ptrdiff_t i = 0; i < close_.nodes(); ++i, at += fields * L) {
-      const Lanes<L> weight = Lanes<L>::load_aligned(at + moved * L);
-      lowest = min(lowest, weight);
-      const Lanes<L> inverse = Lanes<L>(T(1)) / weight;
-      for (std::size_t m = Strengths; m < moved; ++m) {
-        (Lanes<L>::load_aligned(at + m * L) * inverse).store_aligned(at + m * L);
-      }
+  static Lanes<L> renormalise(T* at) {
+    const Lanes<L> weight = Lanes<L>::load_aligned(at + moved * L);
+    const Lanes<L> inverse = Lanes<L>(T(1)) / weight;
+    for (std::size_t m = Strengths; m < moved; ++m) {
+      (Lanes<L>::load_aligned(at + m * L) * inverse).store_aligned(at + m * L);
     }
-    const T worst = lowest_lane(lowest);
+    return weight;
+  }
+  void require_weight(T worst) const {
     if (worst >= smallest_weight) return;
     throw ValueError(message("split remeshing along axis ", axis_, " leaves a node with a sum of weights of ", worst,
                              " (1 for particles at rest): the particles have moved too far apart or past each other; "
