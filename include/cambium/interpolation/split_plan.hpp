@@ -12,6 +12,7 @@
 #include <cambium/interpolation/place_particles.hpp>
 #include <cambium/interpolation/remesh_params.hpp>
 #include <cambium/interpolation/split_pass.hpp>
+#include <cambium/simd/stream.hpp>
 
 namespace cambium::detail {
 
@@ -24,7 +25,12 @@ template <class K, class T, class P, int D, int C>
 class SplitPlan {
  public:
   explicit SplitPlan(const Lattice<D>& lattice)
-      : engine{lattice}, nodes_{1, 1, 1}, first_(lattice, D - 1), middle_(lattice, 0), last_(lattice, D == 3 ? 1 : 0) {
+      : engine{lattice},
+        nodes_{1, 1, 1},
+        streams_(lattice.size() * (D * sizeof(P) + C * sizeof(T)) > (std::size_t{16} << 20)),
+        first_(lattice, D - 1),
+        middle_(lattice, 0),
+        last_(lattice, D == 3 ? 1 : 0) {
     for (int d = 0; d < D; ++d) nodes_[d] = lattice.nodes()[d];
     for (auto& array : between_) array.resize(D > 1 ? lattice.size() : 0);
     for (int d = 0; d < D; ++d) {
@@ -167,8 +173,9 @@ class SplitPlan {
         next_in[m] = out[m == C ? C + 1 : m];
         next_out[m] = between_[m].data() + tile * nodes_[0];
       }
-      middle_({nodes_[2], 1, pitch_}, out[C], next_in, {nodes_[2], 1, nodes_[0] * nodes_[1]}, next_out,
+      middle_({nodes_[2], 1, pitch_}, out[C], next_in, {nodes_[2], 1, nodes_[0] * nodes_[1], streams_}, next_out,
               scratch(worker));
+      simd::finish_streams();
     }
   }
 
@@ -193,29 +200,44 @@ class SplitPlan {
     const LineTile layout = D == 3 ? LineTile{nodes_[0], pitch_, 1} : LineTile{rows, 1, nodes_[0]};
     last_(layout, displacement, in, layout, out, scratch(worker));
     if constexpr (D == 3) {
-      for (int c = 0; c < C; ++c) copy_rows(out[c], pitch_, result[c] + from, nodes_[0]);
+      for (int c = 0; c < C; ++c) {
+        for (std::ptrdiff_t row = 0; row < rows; ++row) {
+          copy(out[c] + row * pitch_, nodes_[0], result[c] + from + row * nodes_[0]);
+        }
+      }
     }
     place_rows(positions, from, rows);
+    simd::finish_streams();
   }
   void copy_rows(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch) const {
     for (std::ptrdiff_t row = 0; row < nodes_[1]; ++row) {
       std::copy_n(from + row * from_pitch, nodes_[0], to + row * to_pitch);
     }
   }
+  /// What the caller gets is written past the caches if they could not hold it.
+  template <class S>
+  void copy(const S* from, std::ptrdiff_t count, S* to) const {
+    streams_ ? simd::stream_copy(from, static_cast<std::size_t>(count), to) : void(std::copy_n(from, count, to));
+  }
+  template <class S>
+  void fill(S* to, std::ptrdiff_t count, S value) const {
+    streams_ ? simd::stream_fill(to, static_cast<std::size_t>(count), value) : void(std::fill_n(to, count, value));
+  }
   /// Positions of the nodes of `rows` rows along axis 0, the first of them at number `from`.
   void place_rows(Columns<D, P> positions, std::ptrdiff_t from, std::ptrdiff_t rows) const {
     const Index<D> first = engine.on.node(static_cast<std::size_t>(from));
     const auto rest = [&](int d) { return positions.column(d).data() + from; };
     for (std::ptrdiff_t row = 0; row < rows; ++row) {
-      std::copy_n(coordinates_[0].data(), nodes_[0], rest(0) + row * nodes_[0]);
+      copy(coordinates_[0].data(), nodes_[0], rest(0) + row * nodes_[0]);
     }
     for (std::ptrdiff_t row = 0; D > 1 && row < rows; ++row) {
-      std::fill_n(rest(D > 1) + row * nodes_[0], nodes_[0], coordinates_[D > 1][first[D > 1] + row]);
+      fill(rest(D > 1) + row * nodes_[0], nodes_[0], coordinates_[D > 1][first[D > 1] + row]);
     }
-    if constexpr (D == 3) std::fill_n(rest(2), rows * nodes_[0], coordinates_[2][first[2]]);
+    if constexpr (D == 3) fill(rest(2), rows * nodes_[0], coordinates_[2][first[2]]);
   }
 
   std::array<std::ptrdiff_t, 3> nodes_;
+  bool streams_;  // the new particles take more than caches usually hold
   std::ptrdiff_t rows_ = 1;
   std::ptrdiff_t pitch_ = 1;
   SplitPass<K, T, C, D - 1> first_;

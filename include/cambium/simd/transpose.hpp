@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include <cambium/simd/stream.hpp>
+
 namespace cambium::simd {
 
 namespace detail {
@@ -31,15 +33,22 @@ template <std::size_t S, std::size_t L, class V>
 
 }  // namespace detail
 
-/// Transposes L x L entries through registers: to[j to_pitch + i] := from[i from_pitch + j], L a power of two.
+/// Transposes L x L entries through registers: to[j to_pitch + i] := from[i from_pitch + j], L a power of two. If
+/// `stream`, rows that are whole cache lines are written past the caches; finish_streams() must follow.
 template <std::size_t L, class T>
-void transpose(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch) {
+void transpose(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch, bool stream = false) {
   using Row [[gnu::vector_size(L * sizeof(T))]] = T;
   Row row[L];
   for (std::size_t i = 0; i < L; ++i)
     std::memcpy(&row[i], from + static_cast<std::ptrdiff_t>(i) * from_pitch, sizeof(Row));
   detail::transpose_blocks<1>(row);
-  for (std::size_t j = 0; j < L; ++j) std::memcpy(to + static_cast<std::ptrdiff_t>(j) * to_pitch, &row[j], sizeof(Row));
+  for (std::size_t j = 0; j < L; ++j, to += to_pitch) {
+    if (sizeof(Row) == stream_bytes && stream && can_stream_to(to)) {
+      stream_line(&row[j], to);
+    } else {
+      std::memcpy(to, &row[j], sizeof(Row));
+    }
+  }
 }
 
 }  // namespace cambium::simd
