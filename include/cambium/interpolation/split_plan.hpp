@@ -121,7 +121,9 @@ class SplitPlan {
     for (int d = 0; d < D; ++d) x[d] = source.x.column(d).data() + p;
     for (int c = 0; c < C; ++c) strength[c] = source.strength[c] + p;
     require_finite(Columns<C, const T>(strength, count), "strength", Serial{});
-    require_positions(engine.on.domain(), Columns<D, const P>(x, count), Serial{});
+    if (!positions_valid(engine.on.domain(), source.x, p, p + count)) {
+      require_positions(engine.on.domain(), Columns<D, const P>(x, count), Serial{});
+    }
     for (int d = 0; d < D; ++d) {
       const int m = d == D - 1 ? 0 : 1 + C + d;
       source.moved.row(d, node[d], x[d], count, local(worker, m) + row * pitch_);
