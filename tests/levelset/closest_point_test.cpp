@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include <cambium/kernels.hpp>
 #include <cambium/levelset.hpp>
 
 #include "levelset_scenes.hpp"

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/closest_point.hpp>
@@ -83,19 +85,28 @@ class LevelSet {
     });
   }
 
-  /// Replaces the band by another: write_block(band, b) gives values to the nodes of block b (NaN where the node is far
-  /// from the interface), for all blocks that `mark(marks)` marked.
+  /// Replaces the band by another: write_block(band, b, worker) gives values to the nodes of block b (NaN to those far
+  /// from the interface) or returns false if all are, for all blocks that `mark(marks)` marked.
+  /// \throws InterfaceError if the new values are not those of a closed interface; the level set is then unchanged
   template <class Mark, class Write, Execution E>
   void replace(Mark&& mark, Write&& write_block, const E& execution) {
     marks_.clear();
     mark(marks_);
-    next_.values().clear();
-    marks_.for_each([&](const Index<D>& block) { next_.values().activate(block); });
-    for_each_piece_by_worker(execution, next_.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-      write_block(next_, b, worker);
-      detail::fill_unknown(next_, b);
+    before_.values().clear();
+    marks_.for_each([&](const Index<D>& block) { before_.values().activate(block); });
+    written_.resize(before_.blocks());
+    for_each_piece_by_worker(execution, before_.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+      written_[b] = write_block(before_, b, worker);
+      if (written_[b]) detail::fill_unknown(before_, b);
     });
+    next_.values().clear();
+    for (std::size_t b = 0; b < before_.blocks(); ++b) {
+      if (!written_[b]) continue;
+      const std::size_t to = next_.values().activate(before_.values().block_index(b));
+      std::ranges::copy(before_.values().block(b), next_.values().block(to).begin());
+    }
     next_.find_far_sides();
+    require_off_walls(next_);
     std::swap(band_, next_);
     dense_.take(band_);
   }
@@ -121,27 +132,27 @@ class LevelSet {
     try {
       f();
       detail::trim(band_, next_, marks_, margin);
-      require_off_walls();
+      require_off_walls(band_);
     } catch (...) {
       std::swap(band_, before_);
       throw;
     }
     dense_.take(band_);
   }
-  void require_off_walls() const {
-    for (std::size_t b = 0; b < band_.blocks(); ++b) {
-      const Index<D> origin = band_.values().block_origin(b);
+  void require_off_walls(const Band& band) const {
+    for (std::size_t b = 0; b < band.blocks(); ++b) {
+      const Index<D> origin = band.values().block_origin(b);
       for (int d = 0; d < D; ++d) {
         const std::ptrdiff_t last = lattice().nodes()[d] - 1;
-        if (!lattice().periodic(d) && (origin[d] == 0 || origin[d] + Band::extent > last)) require_off_wall(b, d);
+        if (!lattice().periodic(d) && (origin[d] == 0 || origin[d] + Band::extent > last)) require_off_wall(band, b, d);
       }
     }
   }
-  void require_off_wall(std::size_t b, int d) const {
+  void require_off_wall(const Band& band, std::size_t b, int d) const {
     for (std::size_t i = 0; i < Band::volume; ++i) {
-      const Index<D> node = band_.values().node(b, i);
+      const Index<D> node = band.values().node(b, i);
       if (!lattice().contains(node) || (node[d] != 0 && node[d] != lattice().nodes()[d] - 1)) continue;
-      const double distance = std::abs(static_cast<double>(band_.values().block(b)[i])) / spacing();
+      const double distance = std::abs(static_cast<double>(band.values().block(b)[i])) / spacing();
       if (distance >= wall_distance) continue;
       throw InterfaceError(detail::message("the interface is ", distance, " spacings from node ", node,
                                            " on a face of the box, across axis ", d, ": it needs ", wall_distance,
@@ -209,6 +220,7 @@ class LevelSet {
   Band before_ = band_;
   detail::BlockMarks<D> marks_;
   Method reinit_;
+  std::vector<std::uint8_t> written_;
   [[no_unique_address]] std::conditional_t<std::is_same_v<Storage, Dense>, DenseCopy, NoCopy> dense_;
 };
 

@@ -169,15 +169,16 @@ class Backward {
         },
         [&](NarrowBand<T, D>& band, std::size_t b, std::size_t w) {
           Worker<T, D>& worker = work.worker[w];
-          find_near(band, b, work.bins, radius, reach, worker);
+          if (!find_near(band, b, work.bins, radius, reach, worker)) return false;
           come_from(band, b, velocity, t + dt, dt, worker);
           bring(old, band, b, worker);
+          return true;
         },
         execution);
   }
-  /// Nodes of block b that are near the front; one node, whose side all of them have, if there is none.
+  /// Nodes of block b that are near the front. \return false if there are none
   template <class T, int D>
-  static void find_near(const NarrowBand<T, D>& band, std::size_t b, const detail::PointBins<T, D>& bins, double radius,
+  static bool find_near(const NarrowBand<T, D>& band, std::size_t b, const detail::PointBins<T, D>& bins, double radius,
                         std::ptrdiff_t reach, Worker<T, D>& worker) {
     worker.nearest.reset(static_cast<T>(radius));
     const Index<D> block = band.values().block_index(b);
@@ -194,7 +195,7 @@ class Backward {
     for (std::size_t i = 0; i < band.volume; ++i) {
       if (worker.nearest.found(i) && band.lattice().contains(band.values().node(b, i))) worker.node.push_back(i);
     }
-    if (worker.node.empty()) worker.node.push_back(0);
+    return !worker.node.empty();
   }
   /// Where the particles that arrive at those nodes at `time` were dt ago, in spacings from the first node.
   template <class T, int D, class V>
