@@ -46,7 +46,8 @@ Lattice<D> lattice(std::ptrdiff_t cells) {
 
 }  // namespace
 
-// One turn in ten steps. Paths are followed finely enough (64 parts of fourth order); the interpolations remain: h^5 each.
+// One turn in ten steps. Paths are followed finely enough (64 parts of fourth order); the interpolations remain: h^5
+// each.
 BOOST_AUTO_TEST_CASE_TEMPLATE(turning_has_the_order_of_the_kernel, I, Dimensions) {
   constexpr int D = I::value;
   double coarse = 0.0;
