@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <cambium/levelset/cell_moments.hpp>
+#include <cambium/simd/pack.hpp>
 
 namespace cambium::detail {
 
@@ -47,8 +48,9 @@ struct CurvedElement<2> {
 /// 1948), whose weights add up to one.
 struct SevenNodeTriangle {
   static constexpr int points = 7;
-  double weight[points]{};
-  double value[points][7]{}, along_u[points][7]{}, along_v[points][7]{};
+  /// By point of the triangle, then by point of the rule; the eighth entry of every row is zero.
+  alignas(64) double weight[8]{};
+  alignas(64) double value[7][8]{}, along_u[7][8]{}, along_v[7][8]{};
 
   constexpr SevenNodeTriangle() {
     constexpr double root = 3.8729833462074169;  // sqrt(15)
@@ -60,27 +62,25 @@ struct SevenNodeTriangle {
     for (int q = 0; q < points; ++q) {
       weight[q] = q == 0 ? 9.0 / 40.0 : (155.0 + (q < 4 ? -root : root)) / 1200.0;
       const double L[3] = {1.0 - place[q][0] - place[q][1], place[q][0], place[q][1]};
-      fill_values(L, value[q]);
-      fill_slopes(L, slope[0], along_u[q]);
-      fill_slopes(L, slope[1], along_v[q]);
+      fill(L, slope[0], q, along_u);
+      fill(L, slope[1], q, along_v);
     }
   }
 
  private:
-  static constexpr void fill_values(const double* L, double* to) {
+  /// Shape functions at L, and their derivatives along the direction in which L changes by dL.
+  constexpr void fill(const double* L, const double* dL, int q, double (*slope)[8]) {
     const double bubble = 27.0 * L[0] * L[1] * L[2];
-    for (int n = 0; n < 3; ++n) to[n] = L[n] * (2.0 * L[n] - 1.0) + bubble / 9.0;
-    for (int n = 0; n < 3; ++n) to[3 + n] = 4.0 * L[n] * L[(n + 1) % 3] - bubble * 4.0 / 9.0;
-    to[6] = bubble;
-  }
-  static constexpr void fill_slopes(const double* L, const double* dL, double* to) {
-    const double bubble = 27.0 * (dL[0] * L[1] * L[2] + L[0] * dL[1] * L[2] + L[0] * L[1] * dL[2]);
-    for (int n = 0; n < 3; ++n) to[n] = (4.0 * L[n] - 1.0) * dL[n] + bubble / 9.0;
+    const double change = 27.0 * (dL[0] * L[1] * L[2] + L[0] * dL[1] * L[2] + L[0] * L[1] * dL[2]);
     for (int n = 0; n < 3; ++n) {
       const int m = (n + 1) % 3;
-      to[3 + n] = 4.0 * (L[n] * dL[m] + dL[n] * L[m]) - bubble * 4.0 / 9.0;
+      value[n][q] = L[n] * (2.0 * L[n] - 1.0) + bubble / 9.0;
+      slope[n][q] = (4.0 * L[n] - 1.0) * dL[n] + change / 9.0;
+      value[3 + n][q] = 4.0 * L[n] * L[m] - bubble * 4.0 / 9.0;
+      slope[3 + n][q] = 4.0 * (L[n] * dL[m] + dL[n] * L[m]) - change * 4.0 / 9.0;
     }
-    to[6] = bubble;
+    value[6][q] = bubble;
+    slope[6][q] = change;
   }
 };
 
@@ -95,35 +95,51 @@ struct CurvedElement<3> {
   static constexpr std::array<std::array<int, 2>, 3> side = {{{0, 1}, {1, 2}, {2, 0}}};
 
   static double add_gap(const Nodes& x, Moments<3>& gap) {
-    double area = 0.0;
-    Moments<3> body;
-    for (int q = 0; q < points; ++q) {
-      Vec<3> y{}, u{}, v{};
+    Lanes y[3], u[3], v[3];
+    for (int d = 0; d < 3; ++d) {
+      y[d] = u[d] = v[d] = Lanes(0.0);
       for (int n = 1; n < 7; ++n) {
-        const Vec<3> z = x[n] - x[0];
-        y += table.value[q][n] * z;
-        u += table.along_u[q][n] * z;
-        v += table.along_v[q][n] * z;
+        const Lanes z(x[n][d] - x[0][d]);
+        y[d] = fma(Lanes::load_aligned(table.value[n]), z, y[d]);
+        u[d] = fma(Lanes::load_aligned(table.along_u[n]), z, u[d]);
+        v[d] = fma(Lanes::load_aligned(table.along_v[n]), z, v[d]);
       }
-      const Vec<3> normal = area_vector<3>({Vec<3>{}, u, v}) * table.weight[q];
-      area += norm(normal);
-      // div y = 3 and div (y y_k) = 4 y_k; neither flows through the flat element or a strip with corner 0.
-      const double flux = dot(y, normal);
-      body.volume += flux / 3.0;
-      body.first += flux / 4.0 * y;
     }
-    // The strip above the side across: a segment of a parabola as in 2D.
+    const Lanes weight = Lanes::load_aligned(table.weight) * Lanes(0.5);
+    Lanes square(0.0), flux(0.0);
+    for (int d = 0; d < 3; ++d) {
+      const int e = (d + 1) % 3, f = (d + 2) % 3;
+      const Lanes normal = (u[e] * v[f] - u[f] * v[e]) * weight;
+      square = fma(normal, normal, square);
+      flux = fma(y[d], normal, flux);
+    }
+    // div y = 3 and div (y y_k) = 4 y_k; neither flows through the flat element or a strip with corner 0.
+    Moments<3> body{sum(flux) / 3.0, {}};
+    for (int d = 0; d < 3; ++d) body.first[d] = sum(flux * y[d]) / 4.0;
+    add_strip(x, body);
+    gap += body.moved(x[0]);
+    return sum_of_roots(square);
+  }
+
+ private:
+  using Lanes = simd::Pack<double, 8>;
+
+  /// The strip above the side across from corner 0: a segment of a parabola as in 2D.
+  static void add_strip(const Nodes& x, Moments<3>& body) {
     const Vec<3> a = x[1] - x[0], b = x[2] - x[0];
     const Vec<3> rise = x[4] - x[0] - (a + b) * 0.5;
     const double flux = -4.0 / 3.0 * dot(a, area_vector<3>({Vec<3>{}, rise, b - a}));
     body.volume += flux / 3.0;
     body.first += flux / 4.0 * ((a + b) * 0.5 + rise * 0.4);
-    gap += body.moved(x[0]);
-    return area;
+  }
+  static double sum_of_roots(const Lanes& square) {
+    alignas(64) double value[8];
+    square.store_aligned(value);
+    double sum = 0.0;
+    for (int q = 0; q < SevenNodeTriangle::points; ++q) sum += std::sqrt(value[q]);
+    return sum;
   }
 
- private:
-  static constexpr int points = SevenNodeTriangle::points;
   static constexpr SevenNodeTriangle table{};
 };
 

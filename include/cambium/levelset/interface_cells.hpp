@@ -44,10 +44,10 @@ class InterfaceCells {
     if (band.blocks() == 0) throw InterfaceError("the band is empty: there is no interface to measure or extract");
     blocks_.resize(band.blocks());
     for_each_patch(band.blocks(), 1, execution,
-                   [&](const auto& patch, std::size_t b) { look_at(patch, b, blocks_[b]); });
+                   [&](const auto& patch, std::size_t b, std::size_t) { look_at(patch, b, blocks_[b]); });
     number_vertices();
     for_each_patch(cut_.size(), halo, execution,
-                   [&](const auto& patch, std::size_t k) { find_vertices(patch, k, curved); });
+                   [&](const auto& patch, std::size_t k, std::size_t) { find_vertices(patch, k, curved); });
   }
 
   const Band& band() const { return band_; }
@@ -62,21 +62,27 @@ class InterfaceCells {
   const Vec<D>& normal(std::size_t v) const { return normal_[v]; }
   double curvature(std::size_t v) const { return curvature_[v]; }
 
-  /// Calls f(k, node, patch, cell, inside, number) for all cells cut, by threads block after block of the cut ones
-  /// (k = 0, ..., cut_blocks() - 1): `node` is the first of the cell, bit c of `inside` tells the side of corner c,
-  /// number[v] is the crossing at vertex v of the cell.
+  /// A cell that the interface cuts.
+  struct Place {
+    std::size_t block;                                      ///< of the cut ones, 0, ..., cut_blocks() - 1
+    std::size_t worker;                                     ///< of the execution; it does one block after another
+    Index<D> node;                                          ///< the first of the cell
+    int inside;                                             ///< bit c tells the side of corner c
+    std::array<std::size_t, Cell::most_vertices> number{};  ///< of the crossing at a vertex that is on an edge
+  };
+  /// Calls f(place, patch, cell) for all cells cut; `patch` is that of the block.
   template <Execution E, class F>
   void for_each_cell(const E& execution, F&& f) const {
-    for_each_patch(cut_.size(), halo, execution, [&](const Patch<T, D>& patch, std::size_t k) {
+    for_each_patch(cut_.size(), halo, execution, [&](const Patch<T, D>& patch, std::size_t k, std::size_t worker) {
+      Cell cell;
       for (std::size_t i = 0; i < Band::volume; ++i) {
-        const Index<D> node = band_.values().node(cut_[k], i);
         std::array<T, Edges::corners> value;
         const int inside = read_corners(patch, patch.entry(i), value);
-        if (inside == 0 || inside == (1 << Edges::corners) - 1 || !has_cell(node)) continue;
-        Cell cell;
-        std::array<std::size_t, Cell::most_vertices> number{};
-        read_cell(node, inside, value, cell, number);
-        f(k, node, patch, static_cast<const Cell&>(cell), inside, number);
+        if (inside == 0 || inside == (1 << Edges::corners) - 1) continue;
+        Place place{k, worker, band_.values().node(cut_[k], i), inside, {}};
+        if (!has_cell(place.node)) continue;
+        read_cell(value, place, cell);
+        f(static_cast<const Place&>(place), patch, static_cast<const Cell&>(cell));
       }
     });
   }
@@ -92,13 +98,13 @@ class InterfaceCells {
  private:
   static constexpr std::int16_t none = -1;
 
-  /// Calls f(patch, k): for all blocks, or with a halo of the stencil for those that are cut.
+  /// Calls f(patch, k, worker): for all blocks, or with a halo of the stencil for those that are cut.
   template <Execution E, class F>
   void for_each_patch(std::size_t count, std::ptrdiff_t nodes_around, const E& execution, F&& f) const {
     std::vector<Patch<T, D>> patches(static_cast<std::size_t>(execution.count()));
     for_each_piece_by_worker(execution, count, 1, [&](std::size_t worker, std::size_t k, std::size_t) {
       patches[worker].read_block(band_, nodes_around == 1 ? k : cut_[k], nodes_around);
-      f(static_cast<const Patch<T, D>&>(patches[worker]), k);
+      f(static_cast<const Patch<T, D>&>(patches[worker]), k, worker);
     });
   }
   static int read_corners(const Patch<T, D>& patch, std::ptrdiff_t at, std::array<T, Edges::corners>& value) {
@@ -216,14 +222,13 @@ class InterfaceCells {
     }
   }
 
-  void read_cell(const Index<D>& node, int inside, const std::array<T, Edges::corners>& value, Cell& cell,
-                 std::array<std::size_t, Cell::most_vertices>& number) const {
+  void read_cell(const std::array<T, Edges::corners>& value, Place& place, Cell& cell) const {
     std::array<double, Edges::count> crossing{};
     std::array<std::size_t, Edges::count> on_edge{};
     for (int e = 0; e < Edges::count; ++e) {
       const int corner = Edges::corner(e), axis = Edges::axis(e);
-      if ((inside >> corner & 1) == (inside >> (corner | 1 << axis) & 1)) continue;
-      Index<D> from = node;
+      if ((place.inside >> corner & 1) == (place.inside >> (corner | 1 << axis) & 1)) continue;
+      Index<D> from = place.node;
       for (int d = 0; d < D; ++d) from[d] += corner >> d & 1;
       from = band_.inside(from);
       const std::ptrdiff_t b = band_.values().find(band_.values().block_of(from));
@@ -235,7 +240,7 @@ class InterfaceCells {
     }
     cell.cut(value, crossing);
     for (int v = 0; v < cell.vertices; ++v) {
-      if (cell.edge[v] >= 0) number[v] = on_edge[cell.edge[v]];
+      if (cell.edge[v] >= 0) place.number[v] = on_edge[cell.edge[v]];
     }
   }
 

@@ -40,9 +40,9 @@ class SurfaceBuilder {
   Surface<D> operator()(const NarrowBand<T, D>& band, bool projected, const E& execution) {
     const InterfaceCells<K, T, D> cells(band, projected, execution);
     pieces_.assign(cells.cut_blocks(), {});
-    cells.for_each_cell(execution,
-                        [&](std::size_t k, const Index<D>& node, const Patch<T, D>& patch, const CutCell<D>& cell, int,
-                            const auto& number) { add_cell(pieces_[k], node, patch, cell, number, projected); });
+    cells.for_each_cell(execution, [&](const auto& place, const Patch<T, D>& patch, const CutCell<D>& cell) {
+      add_cell(pieces_[place.block], place, patch, cell, projected);
+    });
     Surface<D> surface;
     const Lattice<D>& lattice = band.lattice();
     const auto add_vertex = [&](const Vec<D>& u, const Vec<D>& normal, double curvature) {
@@ -77,14 +77,14 @@ class SurfaceBuilder {
     std::vector<Middle> middles;
   };
 
-  template <class Numbers>
-  static void add_cell(Piece& piece, const Index<D>& node, const Patch<T, D>& patch, const CutCell<D>& cell,
-                       const Numbers& number, bool projected) {
+  template <class Place>
+  static void add_cell(Piece& piece, const Place& place, const Patch<T, D>& patch, const CutCell<D>& cell,
+                       bool projected) {
     std::array<std::int64_t, CutCell<D>::most_vertices> id;
     for (int v = 0; v < cell.vertices; ++v) {
-      id[v] = cell.edge[v] >= 0 ? static_cast<std::int64_t>(number[v])
+      id[v] = cell.edge[v] >= 0 ? static_cast<std::int64_t>(place.number[v])
                                 : -1 - static_cast<std::int64_t>(piece.middles.size());
-      if (cell.edge[v] < 0) piece.middles.push_back(middle(node, patch, cell.point[v], projected));
+      if (cell.edge[v] < 0) piece.middles.push_back(middle(place.node, patch, cell.point[v], projected));
     }
     for (int e = 0; e < cell.elements; ++e) {
       std::array<std::int64_t, D> element;
