@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <cambium/levelset/interface_projection.hpp>
 
@@ -21,7 +22,7 @@ class InterfaceExtremum {
 
   /// \param start  in spacings from the first node of the lattice
   /// \param rank   what is to become greatest: rank(point in spacings from the first node, jet)
-  /// \return the greatest rank found; that of the start if there is none higher
+  /// \return the greatest rank found
   template <class Rank>
   double operator()(const Vec<D>& start, Rank&& rank) {
     Index<D> first;
@@ -29,12 +30,15 @@ class InterfaceExtremum {
     patch_.read(band_, first, Index<D>::constant(2 * (reach + halo) + 2));
     Point best = at(start - corner(), rank);
     const Vec<D> middle = best.y;
-    for (double step = 0.25; step > last_step;) {
+    double step = 0.25;
+    for (int move = 0; move < most_moves && step > last_step; ++move) {
       Point next = best;
       for (const Vec<D>& way : tangents(best.jet)) {
         for (const double length : {-step, step}) {
-          const Point other = at(best.y + length * way, rank);
-          if (other.rank > next.rank && norm(other.y - middle) < static_cast<double>(reach) - 1.0) next = other;
+          const Vec<D> y = best.y + length * way;
+          if (!(norm(y - middle) < static_cast<double>(reach) - 1.0)) continue;
+          const Point other = at(y, rank);
+          if (other.rank > next.rank) next = other;
         }
       }
       if (!(next.rank > best.rank)) step *= 0.5;
@@ -47,6 +51,7 @@ class InterfaceExtremum {
   static constexpr std::ptrdiff_t reach = 3;
   static constexpr std::ptrdiff_t halo = InterfaceProjection<K, T, D>::halo;
   static constexpr double last_step = 1e-4;
+  static constexpr int most_moves = 60;  ///< 12 halvings, and 12 spacings of the widest steps
 
   struct Point {
     Vec<D> y;
@@ -63,9 +68,12 @@ class InterfaceExtremum {
   Point at(const Vec<D>& y, Rank&& rank) const {
     Vec<D, T> u;
     for (int d = 0; d < D; ++d) u[d] = static_cast<T>(y[d]);
-    InterfaceProjection<K, T, D>(patch_, sizeof(T) == 8 ? T(1e-4) : T(1e-3))(u);
-    Point result{{}, Interpolant<K, T, D>::jet(patch_.data(), patch_.stride(), u), 0.0};
+    Point result;
+    result.rank = -std::numeric_limits<double>::infinity();
+    const bool found = InterfaceProjection<K, T, D>(patch_, sizeof(T) == 8 ? T(1e-4) : T(1e-3))(u);
     for (int d = 0; d < D; ++d) result.y[d] = static_cast<double>(u[d]);
+    result.jet = Interpolant<K, T, D>::jet(patch_.data(), patch_.stride(), u);
+    if (!found) return result;
     result.rank = rank(result.y + corner(), result.jet);
     return result;
   }
