@@ -14,10 +14,16 @@
 
 namespace cambium {
 
-/// There is no interface, it touches the box, or the band around it is too thin for what is asked of it.
+/// There is no interface, or it touches the box.
 class InterfaceError : public Error {
  public:
   using Error::Error;
+};
+
+/// The interface leaves the nodes that values are kept for: a step was too long for the band.
+class BandError : public InterfaceError {
+ public:
+  using InterfaceError::InterfaceError;
 };
 
 /// Values of a level set near its interface, in blocks of nodes, and the side on which every other node lies.
@@ -72,7 +78,7 @@ class NarrowBand {
   }
 
   /// Finds the side of all blocks that are not stored: that of the stored nodes next to them, carried from block to
-  /// block. \throws InterfaceError if there is no block, or if the interface runs into one that is not stored
+  /// block. \throws InterfaceError if there is no block, BandError if the interface runs into one that is not stored
   void find_far_sides() {
     if (blocks() == 0) {
       throw InterfaceError(
@@ -124,9 +130,9 @@ class NarrowBand {
       known = side;
       front.push_back(block);
     } else if (known != side) {
-      throw InterfaceError(detail::message("the interface runs through block ", block,
-                                           " where no values are kept: the band is too thin for the step; take "
-                                           "shorter steps or a wider band"));
+      throw BandError(detail::message("the interface runs through block ", block,
+                                      " where no values are kept: the band is too thin for the step; take "
+                                      "shorter steps or a wider band"));
     }
   }
   /// Side of the nodes of a stored block next to one of its faces.
@@ -140,9 +146,8 @@ class NarrowBand {
       if (node[axis] != (way < 0 ? origin[axis] : last)) continue;
       const std::int8_t here = values_.block(b)[i] < T(0) ? -1 : 1;
       if (side != 0 && here != side) {
-        throw InterfaceError(
-            detail::message("the interface leaves the stored blocks at node ", node,
-                            ": the band is too thin for the step; take shorter steps or a wider band"));
+        throw BandError(detail::message("the interface leaves the stored blocks at node ", node,
+                                        ": the band is too thin for the step; take shorter steps or a wider band"));
       }
       side = here;
     }

@@ -27,6 +27,7 @@ struct BackwardParams {
 /// What a step did.
 struct AdvectionReport {
   std::size_t steps = 0;              ///< interpolations of phi: more than one if the step was cut
+  std::size_t cuts = 0;               ///< parts that were cut because the interface left the band
   std::size_t reinitialisations = 0;  ///< of these, how many were followed by a reinitialisation
   Slopes slopes;                      ///< |grad phi| next to the interface at the end, before a reinitialisation
 };
@@ -69,6 +70,7 @@ class Backward {
   static constexpr std::size_t group = 64;
   /// Distance from the interface, in spacings, up to which phi must be right for the stencils of the next step.
   static constexpr double clean = 5.0;
+  static constexpr std::size_t most_cuts = 20;
 
   template <class T, int D>
   struct Worker {
@@ -104,7 +106,13 @@ class Backward {
       return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
     // A point of the interface is at most half of a stretched diagonal away from a point of the front.
     const double radius = clean + 0.5 * std::sqrt(static_cast<double>(D)) * std::max(stretch, 1.0);
-    arrive(level_set, velocity, t, dt, radius, execution, work);
+    try {
+      arrive(level_set, velocity, t, dt, radius, execution, work);
+    } catch (const BandError&) {
+      // A part of the interface that no node saw has come apart from the front; shorter steps do not lose it.
+      if (++report.cuts > most_cuts) throw;
+      return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
+    }
     ++report.steps;
     work.front.take(level_set.band(), execution);
     report.slopes = work.front.slopes();
