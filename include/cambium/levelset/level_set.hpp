@@ -8,6 +8,7 @@
 
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/closest_point.hpp>
+#include <cambium/levelset/sampler.hpp>
 
 namespace cambium {
 
@@ -25,20 +26,23 @@ class LevelSet {
   struct Params {
     /// Distance up to which phi is kept, in spacings: what the stencils of the default policies need.
     double half_width = 6.0;
+    /// Nodes that must be between the interface and a bounded face: half the support of the default kernel.
+    std::ptrdiff_t wall_distance = 3;
     typename Reinit::Params reinit = {};
   };
 
-  /// From a function of the position, of any scaling, negative inside: phi := distance to its zero set. The function is
-  /// called at every node of the lattice, and by several threads.
-  /// \throws InterfaceError if there is no zero crossing, or one within `wall_distance` nodes of a bounded face;
-  ///         ValueError if f is not finite
+  /// From a function of the position, of any scaling, negative inside: phi := distance to its zero set. It is called by
+  /// several threads, at every node of the lattice, or, if it bounds its slope (as shapes do), near its zero set only.
+  /// \throws InterfaceError if there is no zero crossing, one within `wall_distance` nodes of a bounded face, or a
+  /// shape
+  ///         cut off by a periodic face; ValueError if f is found to be not finite
   template <class F, Execution E = OpenMP>
   LevelSet(const Lattice<D>& lattice, F&& f, const Params& params = {}, const E& execution = {})
       : band_(lattice, params.half_width * lattice.spacing()),
         next_(band_),
         marks_(lattice),
         reinit_((check_reinitialisation<Reinit>(), params.reinit)) {
-    sample(f, execution);
+    sample(f, params.wall_distance, execution);
     reinitialise(execution);
   }
 
@@ -84,44 +88,17 @@ class LevelSet {
   static constexpr std::ptrdiff_t margin = 5;
 
   template <class F, class E>
-  void sample(F&& f, const E& execution) {
-    const auto phi = [&](const Index<D>& node) { return static_cast<T>(f(lattice().position(band_.inside(node)))); };
-    const Index<D> grid = band_.values().block_grid();
-    std::vector<std::uint8_t> crossed(static_cast<std::size_t>(product(grid)));
-    const auto block_at = [&](std::size_t k) {
-      Index<D> block;
-      for (int d = 0; d < D; ++d) {
-        block[d] = static_cast<std::ptrdiff_t>(k) % grid[d];
-        k /= static_cast<std::size_t>(grid[d]);
-      }
-      return block;
-    };
+  void sample(F& f, std::ptrdiff_t wall_distance, const E& execution) {
+    const detail::Sampler<T, D, F> sampler(band_, f);
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(band_.half_width() / band_.spacing())) + margin;
-    for_each_piece(execution, crossed.size(), 1, [&](std::size_t k, std::size_t) {
-      const Index<D> origin = block_at(k) * Band::extent;
-      bool negative = false, positive = false;
-      const Index<D> edge = Index<D>::constant(Band::extent + 1);
-      for (std::ptrdiff_t i = 0; i < product(edge); ++i) {
-        Index<D> node = origin;
-        std::ptrdiff_t rest = i;
-        for (int d = 0; d < D; ++d) {
-          node[d] += rest % edge[d];
-          rest /= edge[d];
-        }
-        (phi(node) < T(0) ? negative : positive) = true;
-      }
-      crossed[k] = negative && positive;
-    });
-    marks_.clear();
-    for (std::size_t k = 0; k < crossed.size(); ++k) {
-      if (!crossed[k]) continue;
-      const Index<D> origin = block_at(k) * Band::extent;
-      marks_.mark(origin - Index<D>::constant(reach), origin + Index<D>::constant(Band::extent + reach));
-    }
+    sampler.mark(marks_, reach, execution);
     marks_.for_each([&](const Index<D>& block) { band_.values().activate(block); });
     for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) {
-      for (std::size_t i = 0; i < Band::volume; ++i) band_.values().block(b)[i] = phi(band_.values().node(b, i));
+      for (std::size_t i = 0; i < Band::volume; ++i) band_.values().block(b)[i] = sampler.at(band_.values().node(b, i));
     });
+    detail::check_walls(band_, wall_distance);
+    if constexpr (BoundedSlope<F, D>)
+      detail::check_seams(band_, static_cast<double>(std::remove_cvref_t<F>::lipschitz));
     band_.find_far_sides();
   }
 
