@@ -58,8 +58,8 @@ class Amorphous {
   static constexpr double lipschitz = 1.0;
 
   /// \param inner, outer  radii between which the surface lies
-  /// \param bumps         largest wave number: about how many bumps there are around the body; at least 1
-  /// \throws ValueError unless 0 < inner < outer, bumps >= 1 and everything is finite
+  /// \param bumps         largest wave number: about how many bumps there are around the body; at least 2
+  /// \throws ValueError unless 0 < inner < outer, bumps >= 2 and everything is finite
   Amorphous(const Vec<D>& centre, double inner, double outer, std::uint64_t seed, double bumps = 4.0)
       : centre_(detail::finite(centre, "centre of the body")),
         middle_(0.5 *
@@ -70,8 +70,8 @@ class Amorphous {
       throw ValueError(detail::message("the surface cannot stay between radius ", inner, " and ", outer,
                                        ": the inner radius must be the smaller one"));
     }
-    if (!(bumps >= 1.0) || !std::isfinite(bumps)) {
-      throw ValueError(detail::message("number of bumps is ", bumps, ": it must be at least 1"));
+    if (!(bumps >= 2.0) || !std::isfinite(bumps)) {
+      throw ValueError(detail::message("number of bumps is ", bumps, ": it must be at least 2"));
     }
     draw(seed, bumps);
   }
@@ -104,7 +104,7 @@ class Amorphous {
     detail::SplitMix64 random(seed);
     double variance = 0.0;
     for (Wave& wave : waves_) {
-      const double length = 1.0 + (bumps - 1.0) * random.uniform();
+      const double length = 2.0 + (bumps - 2.0) * random.uniform();
       wave.k = length * random.template direction<D>();
       wave.phase = 6.283185307179586 * random.uniform();
       wave.weight = 1.0 / length;
