@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #define BOOST_TEST_MODULE levelset_amorphous
+#include <boost/test/unit_test.hpp>
+#include <support/surface_samples.hpp>
 #include <tuple>
 
-#include <boost/test/unit_test.hpp>
-
 #include <cambium/levelset/shapes/amorphous.hpp>
-#include <support/surface_samples.hpp>
 
 using namespace cambium;
 
@@ -49,7 +48,7 @@ BOOST_AUTO_TEST_CASE(random_numbers_are_the_same_everywhere) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(the_surface_stays_in_its_shell_and_uses_it, Dimension, Dimensions) {
   constexpr int D = Dimension::value;
   const Vec<D> centre = Vec<D>::constant(0.3);
-  double variation = 0.0;  // measured 0.12 to 0.13 of the 0.2 there are
+  double variation = 0.0;  // measured 0.16 and 0.17 of the 0.2 there are
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Amorphous<D> body(centre, 0.2, 0.4, seed, 3.0);
     double least = 1.0, most = 0.0;
@@ -66,7 +65,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_surface_stays_in_its_shell_and_uses_it, Dimens
     BOOST_TEST(most - least > 0.04);
     variation += (most - least) / 20.0;
   }
-  BOOST_TEST_MESSAGE(variation);BOOST_TEST(variation > 0.1);
+  BOOST_TEST(variation > 0.1);
 }
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(the_slope_is_bounded, Dimension, Dimensions) {
@@ -81,7 +80,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(the_slope_is_bounded, Dimension, Dimensions) {
     }
   }
   BOOST_TEST(steepest < 1.0 + 1e-6);
-  BOOST_TEST_MESSAGE(steepest);BOOST_TEST(steepest > 0.3);  // measured 0.5 to 0.8: the bound is not an idle one
+  BOOST_TEST(steepest > 0.3);  // measured 0.47 and 0.37: the bound is not an idle one
 }
 
 BOOST_AUTO_TEST_CASE(what_is_no_shell_is_an_error) {

@@ -2,16 +2,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #define BOOST_TEST_MODULE levelset_combination
-#include <tuple>
-
 #include <boost/test/unit_test.hpp>
+#include <support/surface_samples.hpp>
+#include <tuple>
 
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/levelset/shapes/combination.hpp>
 #include <cambium/levelset/shapes/cuboid.hpp>
 #include <cambium/levelset/shapes/half_space.hpp>
 #include <cambium/levelset/shapes/motion.hpp>
-#include <support/surface_samples.hpp>
 
 using namespace cambium;
 

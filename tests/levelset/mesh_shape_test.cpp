@@ -3,13 +3,13 @@
 
 #define BOOST_TEST_MODULE levelset_mesh_shape
 #include <boost/test/unit_test.hpp>
+#include <support/meshes.hpp>
+#include <support/order.hpp>
+#include <support/surface_samples.hpp>
 
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/shapes/cuboid.hpp>
 #include <cambium/levelset/shapes/mesh_shape.hpp>
-#include <support/meshes.hpp>
-#include <support/order.hpp>
-#include <support/surface_samples.hpp>
 
 using namespace cambium;
 
@@ -51,9 +51,7 @@ double distance(const SurfaceMesh<D>& mesh, const Vec<D>& x) {
 /// A star whose points are sharp and whose notches are sharper: vertices of all kinds.
 TriangleMesh spiky() {
   TriangleMesh mesh = support::icosphere({}, 1.0, 2);
-  cambium::Vec<3> axis{0.3, 0.5, 0.8};
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) mesh.vertices[v] *= v % 3 == 0 ? 1.6 : v % 3 == 1 ? 0.5 : 1.0;
-  (void)axis;
   return mesh;
 }
 

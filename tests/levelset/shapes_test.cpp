@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 #define BOOST_TEST_MODULE levelset_shapes
-#include <tuple>
-
 #include <boost/test/unit_test.hpp>
+#include <support/surface_samples.hpp>
+#include <tuple>
 
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/levelset/shapes/cuboid.hpp>
@@ -14,7 +14,6 @@
 #include <cambium/levelset/shapes/half_space.hpp>
 #include <cambium/levelset/shapes/torus.hpp>
 #include <cambium/levelset/shapes/zalesak_disk.hpp>
-#include <support/surface_samples.hpp>
 
 using namespace cambium;
 
@@ -44,7 +43,8 @@ Box<D> around(Box<D> box) {
 }
 
 /// Holds |shape| against the closest of points on its surface and its sign against `inside`. A sample within s of the
-/// closest point is at most sqrt(d^2 + s^2 (1 + d / R)) away, with R the smallest radius of curvature, here above d / 3.
+/// closest point is at most sqrt(d^2 + s^2 (1 + d / R)) away, with R the smallest radius of curvature, here above d
+/// / 3.
 template <Shape S, class F>
 void check_exact(const S& shape, const support::SurfaceSamples<S::dimension>& surface, F&& inside) {
   constexpr int D = S::dimension;

@@ -3,9 +3,7 @@
 
 #define BOOST_TEST_MODULE levelset_surface_mesh
 #include <boost/test/unit_test.hpp>
-
 #include <limits>
-
 #include <support/meshes.hpp>
 
 using namespace cambium;
@@ -45,7 +43,8 @@ BOOST_AUTO_TEST_CASE(the_first_bad_edge_is_named) {
 
   TriangleMesh turned = cube();
   std::swap(turned.facets[5][0], turned.facets[5][1]);
-  BOOST_CHECK_EXCEPTION(check_closed(turned), MeshError, says("first in facet 2, belongs to 2 triangles that go the same"));
+  BOOST_CHECK_EXCEPTION(check_closed(turned), MeshError,
+                        says("first in facet 2, belongs to 2 triangles that go the same"));
 
   TriangleMesh branched = cube();
   branched.vertices.push_back({3.0, 3.0, 3.0});
@@ -54,7 +53,8 @@ BOOST_AUTO_TEST_CASE(the_first_bad_edge_is_named) {
 
   Polyline line = support::closed_polyline({{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}});
   line.facets.pop_back();
-  BOOST_CHECK_EXCEPTION(check_closed(line), MeshError, says("vertex 0 at (0, 0), first in facet 0, belongs to 1 segments"));
+  BOOST_CHECK_EXCEPTION(check_closed(line), MeshError,
+                        says("vertex 0 at (0, 0), first in facet 0, belongs to 1 segments"));
 }
 
 BOOST_AUTO_TEST_CASE(what_bounds_no_body_is_an_error) {
@@ -85,5 +85,6 @@ BOOST_AUTO_TEST_CASE(what_bounds_no_body_is_an_error) {
     for (auto& v : facet) v = v == 0 ? 7 : v + 8;
     touching.facets.push_back(facet);
   }
-  BOOST_CHECK_EXCEPTION(check_closed(touching), MeshError, says("vertex 7 of the mesh at (2, 2, 2) joins two surfaces"));
+  BOOST_CHECK_EXCEPTION(check_closed(touching), MeshError,
+                        says("vertex 7 of the mesh at (2, 2, 2) joins two surfaces"));
 }

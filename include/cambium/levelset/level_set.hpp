@@ -93,9 +93,9 @@ class LevelSet {
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(band_.half_width() / band_.spacing())) + margin;
     sampler.mark(marks_, reach, execution);
     marks_.for_each([&](const Index<D>& block) { band_.values().activate(block); });
-    for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) {
-      for (std::size_t i = 0; i < Band::volume; ++i) band_.values().block(b)[i] = sampler.at(band_.values().node(b, i));
-    });
+    // Reinitialisations may rely on values up to the margin beyond the band.
+    const double width = static_cast<double>(reach) * band_.spacing();
+    for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) { sampler.fill(band_, b, width); });
     detail::check_walls(band_, wall_distance);
     if constexpr (BoundedSlope<F, D>)
       detail::check_seams(band_, static_cast<double>(std::remove_cvref_t<F>::lipschitz));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -44,14 +45,38 @@ class Sampler {
     }
   }
 
-  /// Value at a node; nodes beyond the lattice take that of the node on the face, or of their image.
-  /// \throws ValueError if it is not finite
-  T at(const Index<D>& node) const { return static_cast<T>(finite_value(position(node))); }
+  /// Gives the nodes of block b their values; nodes beyond the lattice take that of the node on the face, or of their
+  /// image. Boxes of nodes that are known to be further than `width` from the interface become +-half width.
+  /// \throws ValueError if the function is not finite
+  void fill(Band& band, std::size_t b, double width) const {
+    const Index<D> origin = band.values().block_origin(b);
+    std::array<std::array<double, static_cast<std::size_t>(Band::extent)>, static_cast<std::size_t>(D)> coordinate;
+    for (int d = 0; d < D; ++d) {
+      for (std::ptrdiff_t i = 0; i < Band::extent; ++i) {
+        coordinate[d][static_cast<std::size_t>(i)] = position(origin + Index<D>::unit(d, i))[d];
+      }
+    }
+    const auto values = band.values().block(b);
+    const Index<D> boxes = Index<D>::constant(Band::extent / fill_edge), edge = Index<D>::constant(fill_edge);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(product(boxes)); ++k) {
+      const Index<D> first = unfold(k, boxes) * fill_edge, last = first + Index<D>::constant(fill_edge - 1);
+      const unsigned side = in_lattice(origin + last) ? one_side(origin + first, origin + last, width) : 0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(product(edge)); ++i) {
+        const Index<D> local = first + unfold(i, edge);
+        T& value = values[band.values().offset(local)];
+        Vec<D> x;
+        for (int d = 0; d < D; ++d) x[d] = coordinate[d][static_cast<std::size_t>(local[d])];
+        value = side == 0 ? static_cast<T>(finite_value(x)) : side == negative ? -band.half_width() : band.half_width();
+      }
+    }
+  }
 
  private:
   static constexpr bool bounded = BoundedSlope<F, D>;
   /// Blocks along an edge of the boxes that are asked first, each of which is a piece of work.
   static constexpr std::ptrdiff_t group = bounded ? 4 : 1;
+  /// Nodes along an edge of the boxes that are filled at once.
+  static constexpr std::ptrdiff_t fill_edge = 4;
   static constexpr unsigned negative = 1, positive = 2, both = 3;
 
   static Index<D> unfold(std::size_t k, const Index<D>& count) {
@@ -130,22 +155,22 @@ class Sampler {
     }
     unsigned found = 0;
     for (std::ptrdiff_t k = 0; k < product(edge) && found != both; ++k) {
-      found |= at(first + unfold(static_cast<std::size_t>(k), edge)) < T(0) ? negative : positive;
+      const auto value = static_cast<T>(finite_value(position(first + unfold(static_cast<std::size_t>(k), edge))));
+      found |= value < T(0) ? negative : positive;
     }
     return found;
   }
-  /// The side that the box of nodes first, ..., last is known to lie on from the value in its middle, or 0.
-  unsigned one_side(const Index<D>& first, const Index<D>& last) const {
+  /// The side that the box of nodes first, ..., last is known to lie on, and further than `width` from the interface,
+  /// from the value in its middle; or 0.
+  unsigned one_side(const Index<D>& first, const Index<D>& last, double width = 0.0) const {
     if constexpr (bounded) {
       const Vec<D> low = band_.lattice().position(first), high = band_.lattice().position(last);
       const double value = finite_value((low + high) * 0.5);
       // The margin keeps round-off from deciding.
-      const double radius = 0.5 * norm(high - low) * (1.0 + 1e-6);
-      if (std::abs(value) > static_cast<double>(std::remove_cvref_t<F>::lipschitz) * radius) {
-        return value < 0.0 ? negative : positive;
-      }
+      const double radius = (0.5 * norm(high - low) + width) * (1.0 + 1e-6);
+      if (std::abs(value) > static_cast<double>(F::lipschitz) * radius) return value < 0.0 ? negative : positive;
     }
-    (void)first, (void)last;
+    (void)first, (void)last, (void)width;
     return 0;
   }
 
@@ -153,11 +178,23 @@ class Sampler {
   F& f_;
 };
 
+/// True if a block has nodes within `distance` nodes of a face of the box.
+template <class T, int D>
+bool near_face(const NarrowBand<T, D>& band, std::size_t b, std::ptrdiff_t distance) {
+  const Index<D> origin = band.values().block_origin(b);
+  for (int d = 0; d < D; ++d) {
+    const std::ptrdiff_t nodes = band.lattice().nodes()[d];
+    if (origin[d] <= distance || origin[d] + band.extent + distance >= nodes) return true;
+  }
+  return false;
+}
+
 /// \throws InterfaceError if the interface is within `distance` nodes of a bounded face
 template <class T, int D>
 void check_walls(const NarrowBand<T, D>& band, std::ptrdiff_t distance) {
   std::array<std::array<unsigned, 2>, static_cast<std::size_t>(D)> found{};
   for (std::size_t b = 0; b < band.blocks(); ++b) {
+    if (!near_face(band, b, distance)) continue;
     for (std::size_t i = 0; i < band.volume; ++i) {
       const Index<D> node = band.values().node(b, i);
       if (!band.lattice().contains(node)) continue;
@@ -184,6 +221,7 @@ template <class T, int D>
 void check_seams(const NarrowBand<T, D>& band, double slope) {
   const double most = slope * band.spacing() * (1.0 + 1e-3);
   for (std::size_t b = 0; b < band.blocks(); ++b) {
+    if (!near_face(band, b, 0)) continue;
     for (std::size_t i = 0; i < band.volume; ++i) {
       const Index<D> node = band.values().node(b, i);
       if (!band.lattice().contains(node)) continue;
