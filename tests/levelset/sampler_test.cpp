@@ -129,6 +129,20 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(periodic_faces_are_crossed, Dimension, Dimensions)
   check_same<double>(lattice_of<D>(37, across), Slab<D>(Vec<D>::constant(0.5), Vec<D>::unit(0), 0.2));
 }
 
+// A plane half way between the last nodes of a periodic axis and the first, which no other cells see.
+BOOST_AUTO_TEST_CASE_TEMPLATE(an_interface_on_a_periodic_face_is_found, Dimension, Dimensions) {
+  constexpr int D = Dimension::value;
+  std::array<bool, D> all{};
+  all.fill(true);
+  const auto lattice = lattice_of<D>(64, all);
+  const double h = lattice.spacing();
+  const auto slab = repeat(Slab<D>(Vec<D>::constant(0.75 - 0.5 * h), Vec<D>::unit(0), 0.5), lattice.domain());
+  check_same<double>(lattice, slab);
+  const LevelSet<ClosestPoint, D, double> level_set(lattice, Bounded<D>(slab), {}, OpenMP{2});
+  BOOST_TEST(std::abs(level_set.band()(Index<D>{}) - 0.5 * h) < 1e-12);
+  BOOST_TEST(std::abs(level_set.band()(Index<D>::unit(0, 63)) + 0.5 * h) < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(shapes_that_leave_the_box_are_errors) {
   using L = Made;
   const auto says = [](const std::string& text) {

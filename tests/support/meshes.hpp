@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include <cambium/levelset/shapes/surface_mesh.hpp>
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <cambium/levelset/shapes/facet_point.hpp>
@@ -66,7 +67,7 @@ class FacetTree {
   }
 
  private:
-  static constexpr std::size_t leaf = 4;
+  static constexpr std::size_t leaf = 2;
   /// Halves of halves: as many levels as a number of facets has bits, each with two visits waiting.
   static constexpr std::size_t deepest = 128;
 
