@@ -97,8 +97,9 @@ class LevelSet {
     const double width = static_cast<double>(reach) * band_.spacing();
     for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) { sampler.fill(band_, b, width); });
     detail::check_walls(band_, wall_distance);
-    if constexpr (BoundedSlope<F, D>)
-      detail::check_seams(band_, static_cast<double>(std::remove_cvref_t<F>::lipschitz));
+    if constexpr (BoundedSlope<F, D>) {
+      detail::check_seams(band_, static_cast<double>(F::lipschitz));
+    }
     band_.find_far_sides();
   }
 
