@@ -30,7 +30,8 @@ using Formula = std::function<double(const Vec<D>&)>;
 template <int D>
 NarrowBand<double, D> band_of(std::ptrdiff_t cells, const std::type_identity_t<Formula<D>>& f) {
   const Box<D> box{Vec<D>::constant(-6.0), Vec<D>::constant(6.0)};
-  return LevelSet<AsGiven, D>(Lattice<D>::bounded_box(box, cells), f).band();
+  // As near to a face as may be: it is the surface that is to refuse what it cannot work on.
+  return LevelSet<AsGiven, D>(Lattice<D>::bounded_box(box, cells), f, {.wall_distance = 0, .reinit = {}}).band();
 }
 /// How often every side (an end of a segment, an edge of a triangle) is run through forwards minus backwards, and in
 /// all.

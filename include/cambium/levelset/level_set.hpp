@@ -13,6 +13,7 @@
 
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/closest_point.hpp>
+#include <cambium/levelset/sampler.hpp>
 
 namespace cambium {
 
@@ -33,19 +34,24 @@ class LevelSet {
   struct Params {
     /// Distance up to which phi is kept, in spacings: what the stencils of the default policies need.
     double half_width = 6.0;
+    /// Nodes that must be between the interface and a bounded face: half the support of the default kernel.
+    std::ptrdiff_t wall_distance = 3;
     typename Reinit::Params reinit = {};
   };
 
-  /// From a function of the position, of any scaling, negative inside: phi := distance to its zero set. The function is
-  /// called at every node of the lattice, and by several threads.
-  /// \throws InterfaceError if there is no zero crossing, or one within `wall_distance` spacings of a bounded face;
-  ///         ValueError if f is not finite or the band is too thin for the stencils of the reinitialisation
+  /// From a function of the position, of any scaling, negative inside: phi := distance to its zero set. It is called by
+  /// several threads, at every node of the lattice, or, if it bounds its slope (as shapes do), near its zero set only.
+  /// \throws InterfaceError if there is no zero crossing, one within `wall_distance` nodes of a bounded face, or a
+  /// shape
+  ///         cut off by a periodic face; ValueError if f is found to be not finite, or the band is too thin for the
+  ///         stencils of the reinitialisation
   template <class F, Execution E = OpenMP>
   LevelSet(const Lattice<D>& lattice, F&& f, const Params& params = {}, const E& execution = {})
       : band_(lattice, params.half_width * lattice.spacing()),
         next_(band_),
         marks_(lattice),
         reinit_((check_reinitialisation<Reinit>(), params.reinit)),
+        wall_distance_(params.wall_distance),
         dense_(lattice, params.half_width * lattice.spacing()) {
     require_width(params.half_width);
     sample(f, execution);
@@ -114,8 +120,6 @@ class LevelSet {
  private:
   /// Nodes kept around those of the band.
   static constexpr std::ptrdiff_t margin = 5;
-  /// Stencils next to the interface must not reach over a bounded face.
-  static constexpr double wall_distance = 3.0;
 
   static void require_width(double half_width) {
     if constexpr (requires { Reinit::least_half_width; }) {
@@ -153,52 +157,26 @@ class LevelSet {
       const Index<D> node = band.values().node(b, i);
       if (!lattice().contains(node) || (node[d] != 0 && node[d] != lattice().nodes()[d] - 1)) continue;
       const double distance = std::abs(static_cast<double>(band.values().block(b)[i])) / spacing();
-      if (distance >= wall_distance) continue;
+      if (distance >= static_cast<double>(wall_distance_)) continue;
       throw InterfaceError(detail::message("the interface is ", distance, " spacings from node ", node,
-                                           " on a face of the box, across axis ", d, ": it needs ", wall_distance,
+                                           " on a face of the box, across axis ", d, ": it needs ", wall_distance_,
                                            "; enlarge the box or stop earlier"));
     }
   }
 
   template <class F, class E>
-  void sample(F&& f, const E& execution) {
-    const auto phi = [&](const Index<D>& node) { return static_cast<T>(f(lattice().position(band_.inside(node)))); };
-    const Index<D> grid = band_.values().block_grid();
-    std::vector<std::uint8_t> crossed(static_cast<std::size_t>(product(grid)));
-    const auto block_at = [&](std::size_t k) {
-      Index<D> block;
-      for (int d = 0; d < D; ++d) {
-        block[d] = static_cast<std::ptrdiff_t>(k) % grid[d];
-        k /= static_cast<std::size_t>(grid[d]);
-      }
-      return block;
-    };
+  void sample(F& f, const E& execution) {
+    const detail::Sampler<T, D, F> sampler(band_, f);
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(band_.half_width() / band_.spacing())) + margin;
-    for_each_piece(execution, crossed.size(), 1, [&](std::size_t k, std::size_t) {
-      const Index<D> origin = block_at(k) * Band::extent;
-      bool negative = false, positive = false;
-      const Index<D> edge = Index<D>::constant(Band::extent + 1);
-      for (std::ptrdiff_t i = 0; i < product(edge); ++i) {
-        Index<D> node = origin;
-        std::ptrdiff_t rest = i;
-        for (int d = 0; d < D; ++d) {
-          node[d] += rest % edge[d];
-          rest /= edge[d];
-        }
-        (phi(node) < T(0) ? negative : positive) = true;
-      }
-      crossed[k] = negative && positive;
-    });
-    marks_.clear();
-    for (std::size_t k = 0; k < crossed.size(); ++k) {
-      if (!crossed[k]) continue;
-      const Index<D> origin = block_at(k) * Band::extent;
-      marks_.mark(origin - Index<D>::constant(reach), origin + Index<D>::constant(Band::extent + reach));
-    }
+    sampler.mark(marks_, reach, execution);
     marks_.for_each([&](const Index<D>& block) { band_.values().activate(block); });
-    for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) {
-      for (std::size_t i = 0; i < Band::volume; ++i) band_.values().block(b)[i] = phi(band_.values().node(b, i));
-    });
+    // Reinitialisations may rely on values up to the margin beyond the band.
+    const double width = static_cast<double>(reach) * band_.spacing();
+    for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) { sampler.fill(band_, b, width); });
+    detail::check_walls(band_, wall_distance_);
+    if constexpr (BoundedSlope<F, D>) {
+      detail::check_seams(band_, static_cast<double>(F::lipschitz));
+    }
     band_.find_far_sides();
   }
 
@@ -220,6 +198,7 @@ class LevelSet {
   Band before_ = band_;
   detail::BlockMarks<D> marks_;
   Method reinit_;
+  std::ptrdiff_t wall_distance_;
   std::vector<std::uint8_t> written_;
   [[no_unique_address]] std::conditional_t<std::is_same_v<Storage, Dense>, DenseCopy, NoCopy> dense_;
 };
