@@ -12,7 +12,7 @@
 #include "support/order.hpp"
 
 using namespace cambium;
-using scenes::Ball;
+using scenes::Sphere;
 using scenes::distance_error;
 
 namespace {
@@ -32,11 +32,11 @@ Vec<D> turning(const Vec<D>& x, double) {
 }
 
 template <int D>
-Ball<D> ball() {
-  Ball<D> ball;
-  ball.centre[0] = 0.4;
-  ball.radius = 0.18;
-  return ball;
+Sphere<D> sphere() {
+  Sphere<D> sphere;
+  sphere.centre[0] = 0.4;
+  sphere.radius = 0.18;
+  return sphere;
 }
 
 template <int D>
@@ -52,10 +52,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(turning_has_the_order_of_the_kernel, I, Dimensions
   constexpr int D = I::value;
   double coarse = 0.0;
   for (const std::ptrdiff_t cells : {32, 64}) {
-    LevelSet<ClosestPoint, D> level_set(lattice<D>(cells), ball<D>());
+    LevelSet<ClosestPoint, D> level_set(lattice<D>(cells), sphere<D>());
     Backward<> advection({.substeps = D == 2 ? 32 : 16});
     for (int s = 0; s < 10; ++s) advection.step(level_set, turning<D>, 0.1 * s, 0.1);
-    const double error = distance_error(level_set.band(), ball<D>(), 2.0) / static_cast<double>(cells);
+    const double error = distance_error(level_set.band(), sphere<D>(), 2.0) / static_cast<double>(cells);
     BOOST_TEST_MESSAGE(cells << " cells: " << error);
     if (coarse > 0.0) BOOST_TEST(support::observed_order(coarse, error) > 4.0);
     coarse = error;
@@ -65,13 +65,13 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(turning_has_the_order_of_the_kernel, I, Dimensions
 // The flow turns back at half time: its speed depends on time, and the error of the paths is that of the stepper.
 template <template <class, class> class Stepper>
 double error_of_paths(int steps) {
-  LevelSet<ClosestPoint, 2> level_set(lattice<2>(128), ball<2>());
+  LevelSet<ClosestPoint, 2> level_set(lattice<2>(128), sphere<2>());
   Backward<Lambda<6, 4>, Stepper> advection;
   const double dt = 1.0 / steps;
   const auto flow = [](const Vec<2>& x, double t) { return 0.6 * (1.0 - t * t) * turning<2>(x, t); };
   for (int s = 0; s < steps; ++s) advection.step(level_set, flow, s * dt, dt);
   const double angle = 0.6 * 2.0 * std::numbers::pi * (1.0 - 1.0 / 3.0);
-  Ball<2> exact = ball<2>();
+  Sphere<2> exact = sphere<2>();
   exact.centre[0] = 0.5 - 0.1 * std::cos(angle);
   exact.centre[1] = 0.5 - 0.1 * std::sin(angle);
   return distance_error(level_set.band(), exact, 1.5);
@@ -85,22 +85,22 @@ BOOST_AUTO_TEST_CASE(unsteady_flow_has_the_order_of_the_stepper_in_time) {
 // Whole spacings: particles come from nodes, where the kernel interpolates.
 BOOST_AUTO_TEST_CASE(a_shift_by_whole_spacings_is_exact) {
   const auto lattice = Lattice<2>::periodic_box(Box<2>::cube(), 64);
-  LevelSet<ClosestPoint, 2> level_set(lattice, ball<2>());
+  LevelSet<ClosestPoint, 2> level_set(lattice, sphere<2>());
   Backward<> advection;
   const auto shift = [](const Vec<2>&, double) { return Vec<2>{0.25, 0.125}; };
   for (int s = 0; s < 4; ++s) advection.step(level_set, shift, 0.5 * s, 0.5);
   const auto wrapped = [](Vec<2> x) {
     x[1] -= 0.25;  // two units of time: half a period and a quarter
     x[0] -= 0.5;
-    for (int d = 0; d < 2; ++d) x[d] -= std::floor(x[d] - ball<2>().centre[d] + 0.5);
-    return ball<2>()(x);
+    for (int d = 0; d < 2; ++d) x[d] -= std::floor(x[d] - sphere<2>().centre[d] + 0.5);
+    return sphere<2>()(x);
   };
   BOOST_TEST(distance_error(level_set.band(), wrapped, 2.0) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_change_a_bit) {
   const auto run = [](const auto& execution) {
-    LevelSet<ClosestPoint, 3> level_set(lattice<3>(32), ball<3>(), {}, execution);
+    LevelSet<ClosestPoint, 3> level_set(lattice<3>(32), sphere<3>(), {}, execution);
     Backward<> advection;
     for (int s = 0; s < 2; ++s) advection.step(level_set, turning<3>, 0.05 * s, 0.05, execution);
     std::vector<double> values;
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(threads_do_not_change_a_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_advanced_is_left_as_it_was) {
-  LevelSet<ClosestPoint, 2> level_set(lattice<2>(32), ball<2>());
+  LevelSet<ClosestPoint, 2> level_set(lattice<2>(32), sphere<2>());
   const auto before = level_set.band()({16, 16});
   Backward<> advection;
   const auto away = [](const Vec<2>&, double) { return Vec<2>{1.0, 0.0}; };

@@ -12,7 +12,7 @@
 #include "support/order.hpp"
 
 using namespace cambium;
-using scenes::Ball;
+using scenes::Sphere;
 using scenes::distance_error;
 
 namespace {
@@ -34,11 +34,11 @@ Lattice<D> lattice(std::ptrdiff_t cells) {
   return Lattice<D>::bounded_box(Box<D>::cube(), cells);
 }
 template <int D>
-Ball<D> ball() {
-  Ball<D> ball;
-  ball.centre[0] += 0.013;
-  ball.centre[1] -= 0.007;
-  return ball;
+Sphere<D> sphere() {
+  Sphere<D> sphere;
+  sphere.centre[0] += 0.013;
+  sphere.centre[1] -= 0.007;
+  return sphere;
 }
 template <class L>
 std::vector<typename L::Scalar> values(const L& level_set) {
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(distance_from_bad_scaling_has_the_order_of_the_ker
   double coarse = 0.0;
   for (const std::ptrdiff_t cells : {24, 48, 96}) {
     if (D == 3 && cells > 50) continue;
-    const Ball<D> exact = ball<D>();
+    const Sphere<D> exact = sphere<D>();
     const LevelSet<typename C::Reinit, D> level_set(lattice<D>(cells),
                                                     [&](const auto& x) { return exact(x) * scenes::tenfold<D>(x); });
     const double error = distance_error(level_set.band(), exact, 5.9) / static_cast<double>(cells);
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(distance_from_bad_scaling_has_the_order_of_the_ker
 // The values know the distance to a few units of the fifth differences, and what they cannot tell apart stays.
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_distance_stays_as_it_is_to_the_last_bit, C, Cases) {
   constexpr int D = C::dimension;
-  const Ball<D> exact = ball<D>();
+  const Sphere<D> exact = sphere<D>();
   LevelSet<typename C::Reinit, D> level_set(lattice<D>(D == 2 ? 64 : 32), exact);
   BOOST_TEST(distance_error(level_set.band(), exact, 3.0) < 1e-13);
   const auto before = values(level_set);
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(a_distance_stays_as_it_is_to_the_last_bit, C, Case
 }
 
 BOOST_AUTO_TEST_CASE(what_a_call_made_a_thousand_calls_do_not_move) {
-  const Ball<2> exact = ball<2>();
+  const Sphere<2> exact = sphere<2>();
   LevelSet<ClosestPoint, 2> level_set(lattice<2>(32), [&](const auto& x) { return exact(x) * scenes::tenfold<2>(x); });
   const auto before = values(level_set);
   for (int call = 0; call < 1000; ++call) level_set.reinitialise();
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(what_a_call_made_a_thousand_calls_do_not_move) {
 }
 
 BOOST_AUTO_TEST_CASE(single_precision_is_right_to_round_off) {
-  const Ball<3> exact = ball<3>();
+  const Sphere<3> exact = sphere<3>();
   const LevelSet<ClosestPoint, 3, float> level_set(lattice<3>(32),
                                                    [&](const auto& x) { return exact(x) * scenes::tenfold<3>(x); });
   const LevelSet<ClosestPoint, 3, double> wide(lattice<3>(32),
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(single_precision_is_right_to_round_off) {
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_change_a_bit) {
-  const auto f = [](const Vec<3>& x) { return ball<3>()(x) * scenes::tenfold<3>(x); };
+  const auto f = [](const Vec<3>& x) { return sphere<3>()(x) * scenes::tenfold<3>(x); };
   const LevelSet<ClosestPoint, 3> one(lattice<3>(32), f, {}, Serial{});
   for (const int threads : {2, 3}) {
     const LevelSet<ClosestPoint, 3> several(lattice<3>(32), f, {}, OpenMP{threads});

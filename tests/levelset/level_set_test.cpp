@@ -9,7 +9,7 @@
 #include "levelset_scenes.hpp"
 
 using namespace cambium;
-using scenes::Ball;
+using scenes::Sphere;
 
 namespace {
 
@@ -28,7 +28,7 @@ std::string message_of(F&& f) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(far_nodes_read_as_the_half_width_of_their_side) {
-  const LevelSet<ClosestPoint, 2> level_set(square, Ball<2>{});
+  const LevelSet<ClosestPoint, 2> level_set(square, Sphere<2>{});
   const double far = 6.0 / 48.0;
   BOOST_TEST(level_set.band()({24, 24}) == -far);
   BOOST_TEST(level_set.band()({0, 0}) == far);
@@ -49,15 +49,15 @@ BOOST_AUTO_TEST_CASE(sides_are_found_region_by_region) {
 }
 
 BOOST_AUTO_TEST_CASE(dense_storage_has_every_node) {
-  const LevelSet<ClosestPoint, 2, float, Dense> dense(square, Ball<2>{});
-  const LevelSet<ClosestPoint, 2, float> sparse(square, Ball<2>{});
+  const LevelSet<ClosestPoint, 2, float, Dense> dense(square, Sphere<2>{});
+  const LevelSet<ClosestPoint, 2, float> sparse(square, Sphere<2>{});
   for (std::size_t i = 0; i < square.size(); ++i) BOOST_REQUIRE(dense.phi()[i] == sparse.band()(square.node(i)));
 }
 
 // Sixteen times the nodes of a sphere's box, four times the blocks of its band.
 BOOST_AUTO_TEST_CASE(memory_grows_with_the_area) {
   const auto blocks = [](std::ptrdiff_t cells) {
-    return LevelSet<ClosestPoint, 3>(Lattice<3>::bounded_box(Box<3>::cube(), cells), Ball<3>{}).band().blocks();
+    return LevelSet<ClosestPoint, 3>(Lattice<3>::bounded_box(Box<3>::cube(), cells), Sphere<3>{}).band().blocks();
   };
   const auto coarse = blocks(64);
   const auto fine = blocks(128);
@@ -67,9 +67,9 @@ BOOST_AUTO_TEST_CASE(memory_grows_with_the_area) {
 BOOST_AUTO_TEST_CASE(bad_input_is_named) {
   using Set = LevelSet<ClosestPoint, 2>;
   const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
-  BOOST_TEST(has(message_of([] { Set(square, Ball<2>{.radius = -1.0}); }), "no zero crossing"));
-  BOOST_TEST(has(message_of([] { Set(square, Ball<2>{.radius = 0.48}); }), "on a face of the box, across axis"));
-  BOOST_TEST(has(message_of([] { Set(square, Ball<2>{}, {.half_width = 3.0, .reinit = {}}); }), "wider band"));
-  BOOST_TEST(has(message_of([] { Set(square, Ball<2>{}, {.half_width = -3.0, .reinit = {}}); }), "half width"));
+  BOOST_TEST(has(message_of([] { Set(square, Sphere<2>{.radius = -1.0}); }), "no zero crossing"));
+  BOOST_TEST(has(message_of([] { Set(square, Sphere<2>{.radius = 0.48}); }), "on a face of the box, across axis"));
+  BOOST_TEST(has(message_of([] { Set(square, Sphere<2>{}, {.half_width = 3.0, .reinit = {}}); }), "wider band"));
+  BOOST_TEST(has(message_of([] { Set(square, Sphere<2>{}, {.half_width = -3.0, .reinit = {}}); }), "half width"));
   BOOST_TEST(has(message_of([] { Set(square, [](const Vec<2>&) { return std::nan(""); }); }), "not finite"));
 }

@@ -12,7 +12,7 @@ namespace scenes {
 
 /// A ball by its exact signed distance.
 template <int D>
-struct Ball {
+struct Sphere {
   cambium::Vec<D> centre = cambium::Vec<D>::constant(0.5);
   double radius = 0.3;
 
