@@ -13,4 +13,16 @@
 #include <cambium/levelset/narrow_band.hpp>
 #include <cambium/levelset/nearest_candidates.hpp>
 #include <cambium/levelset/patch.hpp>
+#include <cambium/levelset/reinit/block_links.hpp>
+#include <cambium/levelset/reinit/bucket_heap.hpp>
+#include <cambium/levelset/reinit/cell_polynomial.hpp>
+#include <cambium/levelset/reinit/chopp_kick_off.hpp>
+#include <cambium/levelset/reinit/crossed_nodes.hpp>
+#include <cambium/levelset/reinit/distance_field.hpp>
+#include <cambium/levelset/reinit/eikonal_update.hpp>
+#include <cambium/levelset/reinit/fast_marching.hpp>
+#include <cambium/levelset/reinit/fast_sweeping.hpp>
+#include <cambium/levelset/reinit/group_marching.hpp>
+#include <cambium/levelset/reinit/kick_off.hpp>
+#include <cambium/levelset/reinit/linear_kick_off.hpp>
 #include <cambium/levelset/reinitialisation.hpp>
