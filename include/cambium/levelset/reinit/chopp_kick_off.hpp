@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <cambium/levelset/closest_point_search.hpp>
+#include <cambium/levelset/reinit/cell_polynomial.hpp>
+#include <cambium/levelset/reinit/crossed_nodes.hpp>
+#include <cambium/levelset/reinit/kick_off.hpp>
+
+namespace cambium {
+
+namespace detail {
+
+/// The closest point y on the zero set of the polynomials of the cells: by Chopp's steps, to the tangent plane and
+/// along it (Chopp 2001, eq. 3.2), which converge fast where the interface is resolved, then by Newton's method for y -
+/// x + mu grad p = 0, p = 0, which needs second derivatives but converges fast everywhere.
+///
+/// The cell is kept until y is `slack` outside of it, so that the small steps between the polynomials of two cells
+/// cannot send the search to and fro.
+template <class T, int D, int N>
+class CellSearch {
+ public:
+  /// How far y may be from x along each axis: the patch must hold reach + 1 nodes around x.
+  static constexpr std::ptrdiff_t reach = 2;
+
+  /// \param x  position of a node in the patch
+  /// \param y  first guess; the closest point if it is found, else unchanged. \return whether it is
+  static bool run(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y) {
+    Vec<D, T> at = y;
+    Index<D> low;
+    if (!enter(x, at, low)) return false;
+    CellPolynomial<T, D, N> cell(patch, low);
+    T mu{};
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      Vec<D, T> step;
+      const bool found = iteration < first_order_iterations
+                             ? along_tangent(cell.template jet<1>(at - corner(low)), x - at, mu, step)
+                             : newton(cell.template jet<2>(at - corner(low)), x - at, mu, step);
+      if (!found) return false;
+      const T length = norm(step);
+      if (length > longest_step) step *= longest_step / length;
+      at += step;
+      if (left(at, low)) {
+        if (!enter(x, at, low)) return false;
+        cell = CellPolynomial<T, D, N>(patch, low);
+      } else if (length < tolerance) {
+        y = at;
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int first_order_iterations = 4;
+  static constexpr int most_iterations = 20;
+  static constexpr T longest_step = T(0.5);
+  static constexpr T slack = T(0.25);
+  /// The distance is then off by about its square over the radius of curvature.
+  static constexpr T tolerance = sizeof(T) == 8 ? T(5e-4) : T(2e-3);
+
+  static Vec<D, T> corner(const Index<D>& low) {
+    Vec<D, T> result;
+    for (int d = 0; d < D; ++d) result[d] = static_cast<T>(low[d]);
+    return result;
+  }
+  /// The cell of y. \return false if that is out of reach
+  static bool enter(const Vec<D, T>& x, const Vec<D, T>& y, Index<D>& low) {
+    for (int d = 0; d < D; ++d) {
+      if (!(std::abs(y[d] - x[d]) < static_cast<T>(reach))) return false;
+      low[d] = static_cast<std::ptrdiff_t>(std::floor(y[d]));
+    }
+    return true;
+  }
+  static bool left(const Vec<D, T>& y, const Index<D>& low) {
+    for (int d = 0; d < D; ++d) {
+      const T u = y[d] - static_cast<T>(low[d]);
+      if (!(u > -slack && u < T(1) + slack)) return true;
+    }
+    return false;
+  }
+  static bool along_tangent(const Jet<T, D>& jet, const Vec<D, T>& back, T& mu, Vec<D, T>& step) {
+    const T slope = dot(jet.gradient, jet.gradient);
+    if (!(slope > T(0))) return false;
+    step = back - (dot(back, jet.gradient) + jet.value) / slope * jet.gradient;
+    mu = dot(back - step, jet.gradient) / slope;
+    return true;
+  }
+  static bool newton(const Jet<T, D>& jet, const Vec<D, T>& back, T& mu, Vec<D, T>& step) {
+    const Vec<D, T>& g = jet.gradient;
+    std::array<Vec<D, T>, D> A = jet.hessian;
+    for (int d = 0; d < D; ++d) {
+      A[d] *= mu;
+      A[d][d] += T(1);
+    }
+    Vec<D, T> of_residual, of_gradient;
+    if (solve_symmetric<T, D>(A, back - mu * g, of_residual) && solve_symmetric<T, D>(A, g, of_gradient)) {
+      const T through = dot(g, of_gradient);
+      if (std::abs(through) > T(0.05) * dot(g, g)) {
+        const T change = (dot(g, of_residual) + jet.value) / through;
+        step = of_residual - change * of_gradient;
+        mu += change;
+        return true;
+      }
+    }
+    return along_tangent(jet, back, mu, step);
+  }
+};
+
+}  // namespace detail
+
+/// Kick-off by closest points on bicubic or tricubic patches (Chopp 2001, "Some improvements of the fast marching
+/// method"): all corners of the cells that the interface crosses get their distances, of fourth order.
+///
+/// Other than in the paper the cubic runs through the 4^D nodes around a cell instead of taking central differences as
+/// derivatives at its corners (the same nodes, one order more), and the point is found by Newton's method proper. Where
+/// that fails, the cell is bilinear or trilinear; where that fails too, a node next to a crossing takes the linear
+/// estimate, and the other corners are left to what follows.
+struct ChoppKickOff {
+  struct Params {};
+
+  template <class T, int D>
+  class Method {
+   public:
+    Method() = default;
+    explicit Method(const Params&) {}
+
+    /// Distances of the corners of crossed cells.
+    template <Execution E>
+    KickOffCounts operator()(const NarrowBand<T, D>& band, std::span<T> distance, const E& execution) {
+      patches_.resize(static_cast<std::size_t>(execution.count()));
+      counts_.assign(band.blocks(), {});
+      sides_.find(band, execution);
+      for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+        if (!sides_.may_cross(band, b)) return;
+        Patch<T, D>& patch = patches_[worker];
+        patch.read_block(band, b, Search<4>::reach + 1);
+        detail::CrossedNodes<T, D> crossed;
+        if (!crossed.read(patch)) return;
+        crossed.template for_each<detail::Beside::cell>(band, b, [&](std::size_t i) {
+          distance[b * NarrowBand<T, D>::volume + i] = find(patch, patch.entry(i), counts_[b]);
+        });
+      });
+      KickOffCounts total;
+      for (const KickOffCounts& counts : counts_) {
+        total.nodes += counts.nodes;
+        total.lower_order += counts.lower_order;
+        total.estimated += counts.estimated;
+      }
+      return total;
+    }
+
+   private:
+    template <int N>
+    using Search = detail::CellSearch<T, D, N>;
+    /// How much further than the linear estimate a closest point may be.
+    static constexpr T slack = T(0.5);
+
+    static T find(const Patch<T, D>& patch, std::ptrdiff_t at, KickOffCounts& counts) {
+      const Vec<D, T> x = patch.position(at);
+      Vec<D, T> offset;
+      const bool crossed = estimate(patch, at, offset);
+      const T longest = crossed ? norm(offset) + slack : diagonal + slack;
+      Vec<D, T> y = x + offset;
+      if (!(Search<4>::run(patch, x, y) && norm(y - x) < longest)) {
+        y = x + offset;
+        if (Search<2>::run(patch, x, y) && norm(y - x) < longest) {
+          ++counts.lower_order;
+        } else {
+          y = x + offset;
+          ++counts.estimated;
+          if (!crossed) return std::numeric_limits<T>::quiet_NaN();
+        }
+      }
+      ++counts.nodes;
+      return detail::on_side_of(patch[at], norm(y - x));
+    }
+    /// From a node to the plane through the crossings of the lattice lines through it; where none is crossed, to the
+    /// tangent plane. \return true if a line is crossed
+    static bool estimate(const Patch<T, D>& patch, std::ptrdiff_t at, Vec<D, T>& offset) {
+      offset = {};
+      if (patch[at] == T(0)) return true;
+      Vec<D, T> inverse;
+      const bool crossed = detail::inverse_crossings(patch, at, inverse);
+      if (!crossed) {
+        for (int d = 0; d < D; ++d) {
+          inverse[d] = (patch[at - patch.stride()[d]] - patch[at + patch.stride()[d]]) / (T(2) * patch[at]);
+        }
+      }
+      const T square = dot(inverse, inverse);
+      if (square > T(0) && square < std::numeric_limits<T>::max()) {
+        offset = inverse / std::max(square, std::sqrt(square) / diagonal);
+      }
+      return crossed;
+    }
+    /// Length of the diagonal of a cell.
+    static constexpr T diagonal = static_cast<T>(D == 2 ? std::numbers::sqrt2 : std::numbers::sqrt3);
+
+    detail::BlockSides<T, D> sides_;
+    std::vector<Patch<T, D>> patches_;
+    std::vector<KickOffCounts> counts_;
+  };
+};
+
+}  // namespace cambium
