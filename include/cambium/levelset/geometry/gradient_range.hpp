@@ -29,13 +29,29 @@ struct ReinitialisationLimits {
   double largest = 1.5;   ///< above it stencils of the band's half width reach values that are cut off
 };
 
-/// |grad phi| over the nodes within 1.5 spacings of the interface, |phi| <= 1.5 h |grad phi|.
+namespace detail {
+
+/// Squared length of the largest differences between a node and its neighbours along each axis.
+template <class T, int D>
+T steepest(const T* at, const Index<D>& stride) {
+  T sum{};
+  for (int d = 0; d < D; ++d) {
+    const T slope = std::max(std::abs(at[stride[d]] - *at), std::abs(*at - at[-stride[d]]));
+    sum += slope * slope;
+  }
+  return sum;
+}
+
+}  // namespace detail
+
+/// |grad phi| over the nodes within 1.5 spacings of the interface: those whose |phi| is at most 1.5 times the slope to
+/// their neighbours.
 /// \tparam Differences  how derivatives are taken: RidgeAware, so that approaching fronts do not look like a flat phi,
 ///                      or CentredDifferences
 /// \throws InterfaceError if there is no such node
 template <class Differences = RidgeAware, class T, int D, Execution E = OpenMP>
 GradientRange gradient_range(const NarrowBand<T, D>& band, const E& execution = {}) {
-  constexpr double within = 1.5;
+  constexpr T within = T(1.5);
   const auto empty = GradientRange{std::numeric_limits<double>::infinity(), 0.0, 0};
   std::vector<GradientRange> of_block(band.blocks(), empty);
   std::vector<Patch<T, D>> patches(static_cast<std::size_t>(execution.count()));
@@ -46,9 +62,10 @@ GradientRange gradient_range(const NarrowBand<T, D>& band, const E& execution = 
     patch.read_block(band, b, Differences::reach);
     for (std::size_t i = 0; i < phi.size(); ++i) {
       if (!band.in_band(phi[i]) || !band.lattice().contains(band.values().node(b, i))) continue;
-      const Jet<T, D> jet = Differences::jet({}, patch.data() + patch.entry(i), patch.stride());
-      const double slope = static_cast<double>(norm(jet.gradient));  // times the spacing
-      if (!(std::abs(static_cast<double>(phi[i])) <= within * slope)) continue;
+      const T* at = patch.data() + patch.entry(i);
+      if (!(phi[i] * phi[i] <= within * within * detail::steepest(at, patch.stride()))) continue;
+      const Jet<T, D> jet = Differences::jet({}, at, patch.stride());
+      const auto slope = static_cast<double>(norm(jet.gradient));  // times the spacing
       GradientRange& range = of_block[b];
       range = {std::min(range.smallest, slope), std::max(range.largest, slope), range.nodes + 1};
     }

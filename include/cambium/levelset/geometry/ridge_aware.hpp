@@ -20,12 +20,12 @@ namespace cambium {
 /// (Jiang & Shu 1996). Candidates whose gradient is off that of the smoothest by more than half its length see the
 /// other front and are left out: a node exactly half-way takes one side, not the average.
 ///
-/// Away from ridges: order 4 for the gradient in the regime hκ << sqrt(epsilon), at least 2 else, and 2 for curvatures.
-/// At ridges: 2 for the gradient, 1 for curvatures, if the front chosen is alone within two nodes on its own side.
+/// Away from ridges: order 4 for the gradient and 2 for curvatures. At ridges: 2 for the gradient, 1 for curvatures, if
+/// the front that is chosen is alone within two nodes on its own side.
 struct RidgeAware {
   struct Params {
-    /// Square of the second difference, relative to the slope, that counts as none: that of a radius of 30 spacings.
-    double epsilon = 1e-3;
+    /// Square of the second difference, relative to the slope, that counts as none.
+    double epsilon = 1e-6;
   };
   static constexpr int reach = 2;
   template <class T, int D>
