@@ -7,6 +7,7 @@
 #include <cambium/levelset/band_field.hpp>
 #include <cambium/levelset/closest_point.hpp>
 #include <cambium/levelset/closest_point_search.hpp>
+#include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/closest_points.hpp>
 #include <cambium/levelset/extension/by_closest_point.hpp>
 #include <cambium/levelset/extension/extension.hpp>
@@ -23,6 +24,7 @@
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/narrow_band.hpp>
 #include <cambium/levelset/nearest_candidates.hpp>
+#include <cambium/levelset/nearest_points.hpp>
 #include <cambium/levelset/patch.hpp>
 #include <cambium/levelset/point_box.hpp>
 #include <cambium/levelset/reinitialisation.hpp>

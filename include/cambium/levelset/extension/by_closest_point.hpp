@@ -5,9 +5,9 @@
 #include <type_traits>
 #include <vector>
 
+#include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/extension/extension.hpp>
 #include <cambium/levelset/field_patch.hpp>
-#include <cambium/levelset/point_box.hpp>
 
 namespace cambium {
 

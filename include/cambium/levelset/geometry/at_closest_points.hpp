@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/geometry/band_geometry.hpp>
-#include <cambium/levelset/point_box.hpp>
 
 namespace cambium {
 
