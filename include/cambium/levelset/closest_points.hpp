@@ -174,27 +174,17 @@ class ClosestPoints {
       near_begin_.push_back(near_.size());
     }
   }
-  /// Offers the points of the nodes of one side to a block that is all on that side, else all.
   void offer_near(const Band& band, std::size_t b, Nearest& nearest) const {
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(width_ + static_cast<T>(near_reach)));
-    const int side = side_of(band, b);
     detail::for_each_block_around(band, b, reach, [&](std::size_t from, const Index<D>& shift) {
-      const auto phi = band.values().block(from);
       for (std::size_t k = near_begin_[from]; k < near_begin_[from + 1]; ++k) {
         const std::size_t node = near_[k];
         const std::size_t i = node % Band::volume;
-        if (side != 0 && (phi[i] < T(0)) != (side < 0)) continue;
         Vec<D, T> point = offset_at(node) + detail::position_in_block<T, D>(i);
         for (int d = 0; d < D; ++d) point[d] += static_cast<T>(shift[d]);
         nearest.offer(point, {node, method_[node] == 0 ? &near_jets_[from][k - near_begin_[from]] : nullptr});
       }
     });
-  }
-  /// -1 or 1 if all nodes of a block are on that side, else 0.
-  static int side_of(const Band& band, std::size_t b) {
-    std::size_t negative = 0;
-    for (const T phi : band.values().block(b)) negative += phi < T(0);
-    return negative == Band::volume ? -1 : negative == 0 ? 1 : 0;
   }
   /// The other nodes search from the nearest of those points.
   template <Execution E>
