@@ -87,7 +87,7 @@ using Cases = std::tuple<Case<Lambda<4, 4>, 2, 5, 96>, Case<Lambda<4, 4>, 3, 5, 
 BOOST_AUTO_TEST_CASE_TEMPLATE(order, C, Cases) {
   constexpr int D = C::D;
   const Vec<D> centre = Vec<D>::constant(0.5) + Vec<D>::unit(0, 0.0031) - Vec<D>::unit(1, 0.0017);
-  typename ByClosestPoint<typename C::Kernel>::Method<double, D> method;
+  typename ByClosestPoint<typename C::Kernel>::template Method<double, D> method;
   const double coarse = Scene<D>(C::cells, centre).error(method);
   const double fine = Scene<D>(2 * C::cells, centre).error(method);
   // The point is the default kernel's (order 5), the value its own kernel's: the points of M4' and of Lambda_{6,4}
