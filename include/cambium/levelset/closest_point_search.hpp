@@ -11,25 +11,36 @@
 
 namespace cambium::detail {
 
-/// a := A^-1 b for a symmetric matrix, by cofactors. \return false if A is singular to rounding
+/// Inverse of a symmetric matrix, by cofactors.
 template <class T, int D>
-bool solve_symmetric(const std::array<Vec<D, T>, D>& A, const Vec<D, T>& b, Vec<D, T>& a) {
-  std::array<Vec<D, T>, D> cofactor;
-  if constexpr (D == 2) {
-    cofactor = {Vec<2, T>{A[1][1], -A[0][1]}, Vec<2, T>{-A[0][1], A[0][0]}};
-  } else {
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const int r = (i + 1) % 3, s = (i + 2) % 3, u = (j + 1) % 3, v = (j + 2) % 3;
-        cofactor[i][j] = A[r][u] * A[s][v] - A[r][v] * A[s][u];
-      }
+class SymmetricInverse {
+ public:
+  explicit SymmetricInverse(const std::array<Vec<D, T>, D>& A) {
+    if constexpr (D == 2) {
+      cofactor_ = {Vec<2, T>{A[1][1], -A[0][1]}, Vec<2, T>{-A[0][1], A[0][0]}};
+    } else {
+      cofactor_[0] = {A[1][1] * A[2][2] - A[1][2] * A[1][2], A[0][2] * A[1][2] - A[0][1] * A[2][2],
+                      A[0][1] * A[1][2] - A[0][2] * A[1][1]};
+      cofactor_[1] = {cofactor_[0][1], A[0][0] * A[2][2] - A[0][2] * A[0][2], A[0][1] * A[0][2] - A[0][0] * A[1][2]};
+      cofactor_[2] = {cofactor_[0][2], cofactor_[1][2], A[0][0] * A[1][1] - A[0][1] * A[0][1]};
     }
+    const T determinant = dot(A[0], cofactor_[0]);
+    exists_ = std::abs(determinant) > T(64) * std::numeric_limits<T>::epsilon();
+    scale_ = T(1) / determinant;
   }
-  const T determinant = dot(A[0], cofactor[0]);
-  if (!(std::abs(determinant) > T(64) * std::numeric_limits<T>::epsilon())) return false;
-  for (int i = 0; i < D; ++i) a[i] = dot(cofactor[i], b) / determinant;
-  return true;
-}
+  /// False if the matrix is singular to rounding.
+  bool exists() const { return exists_; }
+  Vec<D, T> operator()(const Vec<D, T>& b) const {
+    Vec<D, T> result;
+    for (int i = 0; i < D; ++i) result[i] = scale_ * dot(cofactor_[i], b);
+    return result;
+  }
+
+ private:
+  std::array<Vec<D, T>, D> cofactor_;
+  T scale_;
+  bool exists_;
+};
 
 /// The closest point on the zero set of the function that kernel K interpolates from a patch.
 ///
@@ -41,18 +52,24 @@ class ClosestPointSearch {
   /// \param reach  how far from x the search may go
   ClosestPointSearch(const Patch<T, D>& patch, T reach) : patch_(patch), reach_(reach) {}
 
-  /// \param x  point in spacings from entry 0 of the patch
-  /// \param y  first guess; the closest point if it is found, else unchanged
-  bool operator()(const Vec<D, T>& x, Vec<D, T>& y) {
+  /// \param x      point in spacings from entry 0 of the patch
+  /// \param y      first guess; the closest point if it is found, else unchanged
+  /// \param known  the jet at the first guess, or null
+  bool operator()(const Vec<D, T>& x, Vec<D, T>& y, const Jet<T, D>* known = nullptr) {
     Vec<D, T> at = y;
     T mu{};
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      jet_ = Interpolant<K, T, D>::jet(patch_.data(), patch_.stride(), at);
+      if (known && iteration == 0) {
+        jet_ = *known;
+      } else if (Interpolant<K, T, D>::inside(patch_.edge(), at)) {
+        jet_ = Interpolant<K, T, D>::jet(patch_.data(), patch_.stride(), at);
+      } else {
+        return false;
+      }
       const T slope = dot(jet_.gradient, jet_.gradient);
       if (!(slope > T(0))) return false;
       if (iteration == 0) mu = dot(x - at, jet_.gradient) / slope;
-      Vec<D, T> step;
-      if (!newton_step(x - at, slope, mu, step)) return false;
+      Vec<D, T> step = newton_step(x - at, slope, mu);
       const T length = norm(step);
       if (length > longest_step) step *= longest_step / length;
       at += step;
@@ -73,26 +90,27 @@ class ClosestPointSearch {
   /// The error of the point is the square of the last step, relative to the radius of curvature.
   static constexpr T tolerance = sizeof(T) == 8 ? T(1e-7) : T(1e-4);
 
-  bool newton_step(const Vec<D, T>& back, T slope, T& mu, Vec<D, T>& step) const {
+  Vec<D, T> newton_step(const Vec<D, T>& back, T slope, T& mu) const {
     const Vec<D, T>& g = jet_.gradient;
     std::array<Vec<D, T>, D> A = jet_.hessian;
     for (int d = 0; d < D; ++d) {
       A[d] *= mu;
       A[d][d] += T(1);
     }
-    Vec<D, T> of_residual, of_gradient;
-    if (solve_symmetric<T, D>(A, back - mu * g, of_residual) && solve_symmetric<T, D>(A, g, of_gradient)) {
+    const SymmetricInverse<T, D> inverse(A);
+    if (inverse.exists()) {
+      const Vec<D, T> of_gradient = inverse(g);
       const T through = dot(g, of_gradient);
       if (std::abs(through) > T(0.05) * slope) {
+        const Vec<D, T> of_residual = inverse(back - mu * g);
         const T change = (dot(g, of_residual) + jet_.value) / through;
-        step = of_residual - change * of_gradient;
         mu += change;
-        return true;
+        return of_residual - change * of_gradient;
       }
     }
-    step = back - (dot(back, g) + jet_.value) / slope * g;
+    const Vec<D, T> step = back - (dot(back, g) + jet_.value) / slope * g;
     mu = dot(back - step, g) / slope;
-    return true;
+    return step;
   }
 
   const Patch<T, D>& patch_;

@@ -12,6 +12,8 @@
 #include <cambium/kernels/m4_prime.hpp>
 #include <cambium/levelset/closest_point_search.hpp>
 #include <cambium/levelset/nearest_candidates.hpp>
+#include <cambium/levelset/nearest_points.hpp>
+#include <cambium/levelset/point_box.hpp>
 
 namespace cambium {
 
@@ -44,6 +46,9 @@ class ClosestPoints {
     error_.resize(size);
     slope_.resize(size);
     method_.assign(size, unknown);
+    if (near_jets_.size() < band.blocks()) near_jets_.resize(band.blocks());
+    patches_.resize(static_cast<std::size_t>(execution.count()));
+    nearest_.resize(static_cast<std::size_t>(execution.count()));
     search_near(band, execution);
     list_near(band);
     search_far(band, execution);
@@ -68,6 +73,9 @@ class ClosestPoints {
   /// Nodes that the stencils of a search need beyond the point that it may reach.
   static constexpr std::ptrdiff_t stencil = Taps<Finer>::support / 2 + 1;
 
+  /// Nodes that the search of a far node may stray from where it starts, tangentially.
+  static constexpr std::ptrdiff_t wander = 2;
+
   Vec<D, T> offset_at(std::size_t at) const {
     Vec<D, T> result;
     for (int d = 0; d < D; ++d) result[d] = offset_[d][at];
@@ -76,34 +84,44 @@ class ClosestPoints {
   void set_offset(std::size_t at, const Vec<D, T>& offset) {
     for (int d = 0; d < D; ++d) offset_[d][at] = offset[d];
   }
-  /// Calls f(patch, block, worker) for every block, the patch being read with `halo` nodes around.
-  template <Execution E, class F>
-  void for_each_patch(const Band& band, std::ptrdiff_t halo, const E& execution, F&& f) {
-    patches_.resize(static_cast<std::size_t>(execution.count()));
-    for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-      patches_[worker].read_block(band, b, halo);
-      f(static_cast<const Patch<T, D>&>(patches_[worker]), b, worker);
-    });
-  }
+  /// A near node and the jet at its closest point, null if K did not find it.
+  struct Source {
+    std::size_t node;
+    const Jet<T, D>* jet;
+  };
+  using Nearest = detail::NearestPoints<T, D, Source>;
 
   /// Nodes with a neighbour on the other side.
   template <Execution E>
   void search_near(const Band& band, const E& execution) {
-    for_each_patch(
-        band, static_cast<std::ptrdiff_t>(near_reach) + stencil, execution, [&](const auto& patch, auto b, auto) {
-          for (std::size_t i = 0; i < Band::volume; ++i) {
-            const std::ptrdiff_t at = patch.entry(i);
-            Vec<D, T> offset;
-            if (!crossing(patch, at, offset) || !band.lattice().contains(band.values().node(b, i))) continue;
-            const Vec<D, T> x = patch.position(at);
-            Vec<D, T> y = x + offset;
-            const std::size_t to = b * Band::volume + i;
-            method_[to] =
-                search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), &error_[to], slope_[to]);
-            slope_[to] /= static_cast<T>(band.spacing());
-            set_offset(to, y - x);
-          }
-        });
+    for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+      near_jets_[b].clear();
+      Patch<T, D>& patch = patches_[worker];
+      patch.read_block(band, b, 1);
+      if (!crossed(patch)) return;
+      patch.read_block(band, b, static_cast<std::ptrdiff_t>(near_reach) + stencil);
+      for (std::size_t i = 0; i < Band::volume; ++i) search_near(band, patch, b, i);
+    });
+  }
+  static bool crossed(const Patch<T, D>& patch) {
+    std::ptrdiff_t negative = 0;
+    const std::ptrdiff_t size = product(patch.edge());
+    for (std::ptrdiff_t at = 0; at < size; ++at) negative += patch[at] < T(0);
+    return negative > 0 && negative < size;
+  }
+  void search_near(const Band& band, const Patch<T, D>& patch, std::size_t b, std::size_t i) {
+    const std::ptrdiff_t at = patch.entry(i);
+    Vec<D, T> offset;
+    if (!crossing(patch, at, offset) || !band.lattice().contains(band.values().node(b, i))) return;
+    const Vec<D, T> x = patch.position(at);
+    Vec<D, T> y = x + offset;
+    const std::size_t to = b * Band::volume + i;
+    Jet<T, D> jet;
+    method_[to] = search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), nullptr, &jet);
+    error_[to] = method_[to] == not_searched ? T(0.5) : difference(patch, y, jet);
+    set_offset(to, y - x);
+    slope_[to] = norm(jet.gradient) / static_cast<T>(band.spacing());
+    near_jets_[b].push_back(jet);
   }
   /// The linear estimate of the closest point from the crossings of the lattice lines through a node: the foot of the
   /// perpendicular on the plane through them. \return false if no line crosses
@@ -124,23 +142,21 @@ class ClosestPoints {
     return crossed;
   }
   /// Tries kernels in turn: y becomes the point if one succeeds and is not further from x than y was by more than
-  /// `slack`. \return number of the first that succeeds, or `not_searched`
+  /// `slack`. \param known  jet of the first kernel at y, or null. \param jet  jet at the point, if wanted
+  /// \return number of the first that succeeds, or `not_searched`
   template <class First, class... Rest>
-  static std::uint8_t search(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y, T reach, T slack, T* error,
-                             T& slope) {
+  static std::uint8_t search(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y, T reach, T slack,
+                             const Jet<T, D>* known, Jet<T, D>* jet) {
     detail::ClosestPointSearch<First, T, D> newton(patch, reach);
     Vec<D, T> at = y;
-    if (newton(x, at) && norm(at - x) < norm(y - x) + slack) {
+    if (newton(x, at, known) && norm(at - x) < norm(y - x) + slack) {
       y = at;
-      slope = norm(newton.jet().gradient);
-      if (error) *error = difference(patch, at, newton.jet());
+      if (jet) *jet = newton.jet();
       return static_cast<std::uint8_t>(not_searched - 1 - sizeof...(Rest));
     }
     if constexpr (sizeof...(Rest) > 0) {
-      return search<Rest...>(patch, x, y, reach, slack, error, slope);
+      return search<Rest...>(patch, x, y, reach, slack, nullptr, jet);
     } else {
-      if (error) *error = T(0.5);
-      slope = newton.jet().gradient[0];
       return not_searched;
     }
   }
@@ -162,46 +178,54 @@ class ClosestPoints {
       near_begin_.push_back(near_.size());
     }
   }
-  void offer_near(const Band& band, std::size_t b, detail::NearestCandidates<T, D>& nearest) const {
+  void offer_near(const Band& band, std::size_t b, Nearest& nearest) const {
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(width_ + static_cast<T>(near_reach)));
     detail::for_each_block_around(band, b, reach, [&](std::size_t from, const Index<D>& shift) {
       for (std::size_t k = near_begin_[from]; k < near_begin_[from + 1]; ++k) {
         const std::size_t node = near_[k];
-        Vec<D, T> point = offset_at(node) + position_in_block(node % Band::volume);
+        const std::size_t i = node % Band::volume;
+        Vec<D, T> point = offset_at(node) + detail::position_in_block<T, D>(i);
         for (int d = 0; d < D; ++d) point[d] += static_cast<T>(shift[d]);
-        nearest.offer(point, node);
+        nearest.offer(point, {node, method_[node] == 0 ? &near_jets_[from][k - near_begin_[from]] : nullptr});
       }
     });
-  }
-  static Vec<D, T> position_in_block(std::size_t i) {
-    Vec<D, T> x;
-    for (int d = 0; d < D; ++d) {
-      x[d] = static_cast<T>(i % Band::extent);
-      i /= Band::extent;
-    }
-    return x;
   }
   /// The other nodes search from the nearest of those points.
   template <Execution E>
   void search_far(const Band& band, const E& execution) {
-    const auto halo = static_cast<std::ptrdiff_t>(std::ceil(width_)) + 1 + stencil;
-    nearest_.resize(static_cast<std::size_t>(execution.count()));
-    for_each_patch(band, halo, execution, [&](const auto& patch, std::size_t b, std::size_t worker) {
-      detail::NearestCandidates<T, D>& nearest = nearest_[worker];
+    for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+      Nearest& nearest = nearest_[worker];
       nearest.reset(width_ + T(0.3));  // the point that a node starts from is a little further than its own
       offer_near(band, b, nearest);
+      if (nearest.empty()) return;
+      nearest.settle();
+      const auto is_far = [&](std::size_t i) {
+        return method_[b * Band::volume + i] == unknown && nearest.found(i) &&
+               band.lattice().contains(band.values().node(b, i));
+      };
+      detail::PointBox<K, T, D> box;
       for (std::size_t i = 0; i < Band::volume; ++i) {
-        const std::size_t to = b * Band::volume + i;
-        if (method_[to] != unknown || !nearest.found(i)) continue;
-        if (!band.lattice().contains(band.values().node(b, i))) continue;
-        const Vec<D, T> x = patch.position(patch.entry(i));
-        Vec<D, T> y = x + nearest.point(i) - position_in_block(i);
-        method_[to] = search<K, M4Prime, Hat>(patch, x, y, width_ + T(1), T(0.01), nullptr, slope_[to]);
-        slope_[to] /= static_cast<T>(band.spacing());
-        error_[to] = error_[nearest.source(i)];
-        set_offset(to, y - x);
+        if (is_far(i)) box.add(nearest.point(i));
+      }
+      if (box.empty()) return;
+      box.read(band, band.values().block_origin(b), wander, patches_[worker]);
+      for (std::size_t i = 0; i < Band::volume; ++i) {
+        if (is_far(i)) search_far(band, patches_[worker], box.corner(), nearest, b, i);
       }
     });
+  }
+  void search_far(const Band& band, const Patch<T, D>& patch, const Vec<D, T>& corner, const Nearest& nearest,
+                  std::size_t b, std::size_t i) {
+    const std::size_t to = b * Band::volume + i;
+    const Source& source = nearest.source(i);
+    const Vec<D, T> x = detail::position_in_block<T, D>(i) - corner;
+    Vec<D, T> y = nearest.point(i) - corner;
+    Jet<T, D> jet;
+    method_[to] = search<K, M4Prime, Hat>(patch, x, y, width_ + T(1), T(0.01), source.jet, &jet);
+    error_[to] = error_[source.node];
+    const bool searched = method_[to] != not_searched;
+    slope_[to] = searched ? norm(jet.gradient) / static_cast<T>(band.spacing()) : slope_[source.node];
+    set_offset(to, y - x);
   }
   void count() {
     counts_ = {};
@@ -223,7 +247,8 @@ class ClosestPoints {
   std::vector<std::uint8_t> method_;
   std::vector<std::size_t> near_;
   std::vector<std::size_t> near_begin_;
-  std::vector<detail::NearestCandidates<T, D>> nearest_;
+  std::vector<std::vector<Jet<T, D>>> near_jets_;  ///< of the nodes in near_, block by block
+  std::vector<Nearest> nearest_;
   std::vector<Patch<T, D>> patches_;
   ClosestPointCounts counts_;
 };

@@ -82,6 +82,14 @@ struct Interpolant {
   static constexpr std::ptrdiff_t before = Taps<K>::before;
   static constexpr std::ptrdiff_t behind = K::support - 1 - Taps<K>::before;
 
+  /// True if the stencil of point u lies in an array of `edge` nodes along each axis.
+  static bool inside(const Index<D>& edge, const Vec<D, T>& u) {
+    constexpr auto low = static_cast<T>(before) - static_cast<T>(Taps<K>::shift);
+    constexpr auto high = static_cast<T>(behind) + static_cast<T>(Taps<K>::shift);
+    bool result = true;
+    for (int d = 0; d < D; ++d) result &= u[d] >= low && u[d] < static_cast<T>(edge[d]) - high;
+    return result;
+  }
   /// Value and derivatives.
   /// \param values  of the lattice with the strides `stride` (stride[0] = 1); readable one vector beyond the stencil
   /// \param u       point in spacings from the first of them
