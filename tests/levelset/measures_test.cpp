@@ -102,8 +102,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(ellipsoids_are_measured_to_fourth_order, Dim, Dime
     }
     for (int i = 0; i < 2; ++i) {
       BOOST_TEST_INFO("D = " << D << ", e = " << e << ", quantity " << i);
-      // Measured 1e-7 to 1.5e-6 in 2D and 3D; the order has a margin for the luck of three places.
-      BOOST_TEST(fine[i] < 4e-6);
+      // Measured up to 8e-7 in 3D; triangles without their middle point leave 2e-6 to 3e-6.
+      BOOST_TEST(fine[i] < (D == 2 ? 4e-6 : 1.5e-6));
       BOOST_TEST_INFO("errors " << coarse[i] << " and " << fine[i]);
       BOOST_TEST(support::observed_order(coarse[i], fine[i]) > 3.3);
     }
