@@ -102,8 +102,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(ellipsoids_are_measured_to_fourth_order, Dim, Dime
     }
     for (int i = 0; i < 2; ++i) {
       BOOST_TEST_INFO("D = " << D << ", e = " << e << ", quantity " << i);
-      // Measured 1e-7 to 1.5e-6 in 2D and 3D; the order has a margin for the luck of three places.
-      BOOST_TEST(fine[i] < 4e-6);
+      // Measured up to 8e-7 in 3D; triangles without their middle point leave 2e-6 to 3e-6.
+      BOOST_TEST(fine[i] < (D == 2 ? 4e-6 : 1.5e-6));
       BOOST_TEST_INFO("errors " << coarse[i] << " and " << fine[i]);
       BOOST_TEST(support::observed_order(coarse[i], fine[i]) > 3.3);
     }
@@ -111,11 +111,10 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(ellipsoids_are_measured_to_fourth_order, Dim, Dime
 }
 
 /// The same in single precision.
-BOOST_AUTO_TEST_CASE_TEMPLATE(single_precision_is_enough, Dim, Dimensions) {
-  constexpr int D = Dim::value;
-  const LevelSet<AsGiven, D, float> level_set(box<D>(64),
-                                              Formula<D>([](const Vec<D>& x) { return ellipsoid(x, 0.1); }));
-  const Vec<2> error = errors(measures(level_set.band()), exact<D>(0.1));
+BOOST_AUTO_TEST_CASE(single_precision_is_enough) {
+  const LevelSet<AsGiven, 3, float> level_set(box<3>(64),
+                                              Formula<3>([](const Vec<3>& x) { return ellipsoid(x, 0.1); }));
+  const Vec<2> error = errors(measures(level_set.band()), exact<3>(0.1));
   BOOST_TEST(error[0] < 1e-5);
   BOOST_TEST(error[1] < 1e-5);
 }

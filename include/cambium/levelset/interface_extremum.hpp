@@ -20,11 +20,16 @@ class InterfaceExtremum {
  public:
   explicit InterfaceExtremum(const NarrowBand<T, D>& band) : band_(band) {}
 
+  /// What is to become greatest: `sign` times the position along `axis`, or times the curvature if axis < 0; in
+  /// spacings, from the first node of the lattice.
+  struct Rank {
+    int axis;
+    double sign;
+  };
+
   /// \param start  in spacings from the first node of the lattice
-  /// \param rank   what is to become greatest: rank(point in spacings from the first node, jet)
   /// \return the greatest rank found
-  template <class Rank>
-  double operator()(const Vec<D>& start, Rank&& rank) {
+  double operator()(const Vec<D>& start, const Rank& rank) {
     Index<D> first;
     for (int d = 0; d < D; ++d) first[d] = static_cast<std::ptrdiff_t>(std::floor(start[d])) - reach - halo;
     patch_.read(band_, first, Index<D>::constant(2 * (reach + halo) + 2));
@@ -64,8 +69,7 @@ class InterfaceExtremum {
     for (int d = 0; d < D; ++d) x[d] = static_cast<double>(patch_.first()[d]);
     return x;
   }
-  template <class Rank>
-  Point at(const Vec<D>& y, Rank&& rank) const {
+  Point at(const Vec<D>& y, const Rank& rank) const {
     Vec<D, T> u;
     for (int d = 0; d < D; ++d) u[d] = static_cast<T>(y[d]);
     Point result;
@@ -74,7 +78,8 @@ class InterfaceExtremum {
     for (int d = 0; d < D; ++d) result.y[d] = static_cast<double>(u[d]);
     result.jet = Interpolant<K, T, D>::jet(patch_.data(), patch_.stride(), u);
     if (!found) return result;
-    result.rank = rank(result.y + corner(), result.jet);
+    result.rank = rank.sign * (rank.axis < 0 ? static_cast<double>(curvature(result.jet))
+                                             : result.y[rank.axis] + corner()[rank.axis]);
     return result;
   }
   /// Orthonormal directions along the level of a jet.

@@ -158,14 +158,12 @@ class InterfaceMeasures {
     const double h = band_.spacing();
     for (const double sign : {-1.0, 1.0}) {
       const std::size_t v = greatest([&](std::size_t i) { return sign * cells_.curvature(i); });
-      const double value = sign * climb(cells_.point(v), [&](const Vec<D>&, const Jet<T, D>& jet) {
-                             return sign * static_cast<double>(curvature(jet));
-                           });
+      const double value = sign * climb(cells_.point(v), {-1, sign});
       (sign < 0.0 ? result_.least_curvature : result_.greatest_curvature) = value / h;
       for (int d = 0; d < D; ++d) {
         const std::size_t far = greatest([&](std::size_t i) { return sign * opened(d, cells_.point(i)[d]); });
         const double shift = opened(d, cells_.point(far)[d]) - cells_.point(far)[d];
-        const double place = sign * climb(cells_.point(far), [&](const Vec<D>& x, const auto&) { return sign * x[d]; });
+        const double place = sign * climb(cells_.point(far), {d, sign});
         (sign < 0.0 ? result_.extents.lo : result_.extents.hi)[d] = band_.lattice().box().lo[d] + (place + shift) * h;
       }
     }
