@@ -6,6 +6,7 @@
 #include <cambium/levelset/advection/backward.hpp>
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/band_field.hpp>
+#include <cambium/levelset/blocks_around.hpp>
 #include <cambium/levelset/cell_moments.hpp>
 #include <cambium/levelset/closest_point.hpp>
 #include <cambium/levelset/closest_point_search.hpp>
@@ -35,7 +36,6 @@
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/measures.hpp>
 #include <cambium/levelset/narrow_band.hpp>
-#include <cambium/levelset/nearest_candidates.hpp>
 #include <cambium/levelset/nearest_points.hpp>
 #include <cambium/levelset/patch.hpp>
 #include <cambium/levelset/point_bins.hpp>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <cambium/levelset/nearest_candidates.hpp>
+#include <cambium/levelset/narrow_band.hpp>
 
 namespace cambium::detail {
 

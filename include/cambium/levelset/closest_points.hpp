@@ -10,8 +10,8 @@
 #include <cambium/kernels/hat.hpp>
 #include <cambium/kernels/lambda.hpp>
 #include <cambium/kernels/m4_prime.hpp>
+#include <cambium/levelset/blocks_around.hpp>
 #include <cambium/levelset/closest_point_search.hpp>
-#include <cambium/levelset/nearest_candidates.hpp>
 #include <cambium/levelset/nearest_points.hpp>
 #include <cambium/levelset/point_box.hpp>
 

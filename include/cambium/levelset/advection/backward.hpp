@@ -10,6 +10,8 @@
 
 #include <cambium/levelset/front.hpp>
 #include <cambium/levelset/level_set.hpp>
+#include <cambium/levelset/nearest_points.hpp>
+#include <cambium/levelset/point_bins.hpp>
 #include <cambium/time/rk4.hpp>
 
 namespace cambium {
@@ -82,7 +84,7 @@ class Backward {
     }
     std::array<std::array<T, group>, D> x{};
     S<Columns<D, T>, Serial> stepper;
-    detail::NearestCandidates<T, D> nearest;
+    detail::NearestPoints<T, D, char> nearest;
     Patch<T, D> patch;
     std::vector<std::size_t> node;
     std::vector<Vec<D, T>> from;
@@ -196,10 +198,12 @@ class Backward {
         for (int d = 0; d < D; ++d) {
           local[d] = point[d] - static_cast<T>(other[d] * BlockShape<D>::extent - shift[d]);
         }
-        worker.nearest.offer(local, 0);
+        worker.nearest.offer(local, '\0');
       }
     });
     worker.node.clear();
+    if (worker.nearest.empty()) return false;
+    worker.nearest.settle();
     for (std::size_t i = 0; i < band.volume; ++i) {
       if (worker.nearest.found(i) && band.lattice().contains(band.values().node(b, i))) worker.node.push_back(i);
     }
