@@ -31,7 +31,7 @@ class BucketHeap {
     front_ = 0;
   }
   void push(T key, std::int32_t number) {
-    const auto k = static_cast<std::size_t>(key * inverse_);
+    const auto k = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(key * inverse_));
     auto& bucket = bucket_[std::max(k, front_)];
     bucket.push_back({key, number});
     if (k <= front_) std::push_heap(bucket.begin(), bucket.end(), std::greater<>{});

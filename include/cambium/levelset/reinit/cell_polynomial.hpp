@@ -26,11 +26,13 @@ class LagrangeWeights {
     } else {
       const T square = u * u;
       const T cube = square * u;
+      constexpr T sixth = static_cast<T>(1.0 / 6.0);
+      constexpr T half = T(0.5);
       // -u(u-1)(u-2)/6, (u+1)(u-1)(u-2)/2, -(u+1)u(u-2)/2, (u+1)u(u-1)/6
-      tap_[0] = {(T(-2) * u + T(3) * square - cube) / T(6), (T(2) - u - T(2) * square + cube) / T(2),
-                 (T(2) * u + square - cube) / T(2), (cube - u) / T(6)};
-      tap_[1] = {(T(-2) + T(6) * u - T(3) * square) / T(6), (T(-1) - T(4) * u + T(3) * square) / T(2),
-                 (T(2) + T(2) * u - T(3) * square) / T(2), (T(3) * square - T(1)) / T(6)};
+      tap_[0] = {(T(3) * square - T(2) * u - cube) * sixth, (T(2) - u - T(2) * square + cube) * half,
+                 (T(2) * u + square - cube) * half, (cube - u) * sixth};
+      tap_[1] = {(T(6) * u - T(2) - T(3) * square) * sixth, (T(3) * square - T(4) * u - T(1)) * half,
+                 (T(2) + T(2) * u - T(3) * square) * half, (T(3) * square - T(1)) * sixth};
       tap_[2] = {T(1) - u, T(3) * u - T(2), T(1) - T(3) * u, u};
     }
   }
@@ -47,10 +49,10 @@ class LagrangeWeights {
 template <class T, int D, int N>
 class CellPolynomial {
  public:
-  /// \param low  entry of the lowest corner of the cell, as a position in the patch
-  CellPolynomial(const Patch<T, D>& patch, const Index<D>& low) : stride_(patch.stride()) {
+  /// \param low  the lowest corner of the cell, in whole spacings from entry 0 of the patch
+  CellPolynomial(const Patch<T, D>& patch, const Vec<D, T>& low) : stride_(patch.stride()) {
     std::ptrdiff_t first = 0;
-    for (int d = 0; d < D; ++d) first += (low[d] - (N / 2 - 1)) * stride_[d];
+    for (int d = 0; d < D; ++d) first += (static_cast<std::ptrdiff_t>(low[d]) - (N / 2 - 1)) * stride_[d];
     first_ = patch.data() + first;
   }
 

@@ -31,15 +31,15 @@ class CellSearch {
   /// \param y  first guess; the closest point if it is found, else unchanged. \return whether it is
   static bool run(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y) {
     Vec<D, T> at = y;
-    Index<D> low;
+    Vec<D, T> low;
     if (!enter(x, at, low)) return false;
     CellPolynomial<T, D, N> cell(patch, low);
-    T mu{};
+    T mu = std::numeric_limits<T>::quiet_NaN();
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       Vec<D, T> step;
       const bool found = iteration < first_order_iterations
-                             ? along_tangent(cell.template jet<1>(at - corner(low)), x - at, mu, step)
-                             : newton(cell.template jet<2>(at - corner(low)), x - at, mu, step);
+                             ? along_tangent(cell.template jet<1>(at - low), x - at, step)
+                             : newton(cell.template jet<2>(at - low), x - at, mu, step);
       if (!found) return false;
       const T length = norm(step);
       if (length > longest_step) step *= longest_step / length;
@@ -63,35 +63,33 @@ class CellSearch {
   /// The distance is then off by about its square over the radius of curvature.
   static constexpr T tolerance = sizeof(T) == 8 ? T(5e-4) : T(2e-3);
 
-  static Vec<D, T> corner(const Index<D>& low) {
-    Vec<D, T> result;
-    for (int d = 0; d < D; ++d) result[d] = static_cast<T>(low[d]);
-    return result;
-  }
   /// The cell of y. \return false if that is out of reach
-  static bool enter(const Vec<D, T>& x, const Vec<D, T>& y, Index<D>& low) {
+  static bool enter(const Vec<D, T>& x, const Vec<D, T>& y, Vec<D, T>& low) {
     for (int d = 0; d < D; ++d) {
       if (!(std::abs(y[d] - x[d]) < static_cast<T>(reach))) return false;
-      low[d] = static_cast<std::ptrdiff_t>(std::floor(y[d]));
+      low[d] = std::floor(y[d]);
     }
     return true;
   }
-  static bool left(const Vec<D, T>& y, const Index<D>& low) {
+  static bool left(const Vec<D, T>& y, const Vec<D, T>& low) {
     for (int d = 0; d < D; ++d) {
-      const T u = y[d] - static_cast<T>(low[d]);
+      const T u = y[d] - low[d];
       if (!(u > -slack && u < T(1) + slack)) return true;
     }
     return false;
   }
-  static bool along_tangent(const Jet<T, D>& jet, const Vec<D, T>& back, T& mu, Vec<D, T>& step) {
+  static bool along_tangent(const Jet<T, D>& jet, const Vec<D, T>& back, Vec<D, T>& step) {
     const T slope = dot(jet.gradient, jet.gradient);
     if (!(slope > T(0))) return false;
     step = back - (dot(back, jet.gradient) + jet.value) / slope * jet.gradient;
-    mu = dot(back - step, jet.gradient) / slope;
     return true;
   }
+  /// \param mu  NaN before the first step
   static bool newton(const Jet<T, D>& jet, const Vec<D, T>& back, T& mu, Vec<D, T>& step) {
     const Vec<D, T>& g = jet.gradient;
+    const T slope = dot(g, g);
+    if (!(slope > T(0))) return false;
+    if (std::isnan(mu)) mu = dot(back, g) / slope;
     std::array<Vec<D, T>, D> A = jet.hessian;
     for (int d = 0; d < D; ++d) {
       A[d] *= mu;
@@ -100,14 +98,16 @@ class CellSearch {
     Vec<D, T> of_residual, of_gradient;
     if (solve_symmetric<T, D>(A, back - mu * g, of_residual) && solve_symmetric<T, D>(A, g, of_gradient)) {
       const T through = dot(g, of_gradient);
-      if (std::abs(through) > T(0.05) * dot(g, g)) {
+      if (std::abs(through) > T(0.05) * slope) {
         const T change = (dot(g, of_residual) + jet.value) / through;
         step = of_residual - change * of_gradient;
         mu += change;
         return true;
       }
     }
-    return along_tangent(jet, back, mu, step);
+    if (!along_tangent(jet, back, step)) return false;
+    mu = dot(back - step, g) / slope;
+    return true;
   }
 };
 
@@ -134,16 +134,14 @@ struct ChoppKickOff {
     KickOffCounts operator()(const NarrowBand<T, D>& band, std::span<T> distance, const E& execution) {
       patches_.resize(static_cast<std::size_t>(execution.count()));
       counts_.assign(band.blocks(), {});
-      sides_.find(band, execution);
+      signs_.find(band, execution);
       for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-        if (!sides_.may_cross(band, b)) return;
-        Patch<T, D>& patch = patches_[worker];
-        patch.read_block(band, b, Search<4>::reach + 1);
         detail::CrossedNodes<T, D> crossed;
-        if (!crossed.read(patch)) return;
-        crossed.template for_each<detail::Beside::cell>(band, b, [&](std::size_t i) {
-          distance[b * NarrowBand<T, D>::volume + i] = find(patch, patch.entry(i), counts_[b]);
-        });
+        if (!crossed.template find<detail::Beside::cell>(band, signs_, b)) return;
+        Patch<T, D>& patch = patches_[worker];
+        patch.read_block(band, b, halo);
+        crossed.for_each(
+            [&](std::size_t i) { distance[b * NarrowBand<T, D>::volume + i] = find(patch, i, counts_[b]); });
       });
       KickOffCounts total;
       for (const KickOffCounts& counts : counts_) {
@@ -157,11 +155,16 @@ struct ChoppKickOff {
    private:
     template <int N>
     using Search = detail::CellSearch<T, D, N>;
+    static constexpr std::ptrdiff_t halo = Search<4>::reach + 1;
     /// How much further than the linear estimate a closest point may be.
     static constexpr T slack = T(0.5);
 
-    static T find(const Patch<T, D>& patch, std::ptrdiff_t at, KickOffCounts& counts) {
-      const Vec<D, T> x = patch.position(at);
+    static T find(const Patch<T, D>& patch, std::size_t i, KickOffCounts& counts) {
+      const std::ptrdiff_t at = patch.entry(i);
+      Vec<D, T> x;
+      for (int d = 0; d < D; ++d, i /= NarrowBand<T, D>::extent) {
+        x[d] = static_cast<T>(static_cast<std::ptrdiff_t>(i % NarrowBand<T, D>::extent) + halo);
+      }
       Vec<D, T> offset;
       const bool crossed = estimate(patch, at, offset);
       const T longest = crossed ? norm(offset) + slack : diagonal + slack;
@@ -200,7 +203,7 @@ struct ChoppKickOff {
     /// Length of the diagonal of a cell.
     static constexpr T diagonal = static_cast<T>(D == 2 ? std::numbers::sqrt2 : std::numbers::sqrt3);
 
-    detail::BlockSides<T, D> sides_;
+    detail::SignRows<T, D> signs_;
     std::vector<Patch<T, D>> patches_;
     std::vector<KickOffCounts> counts_;
   };

@@ -35,15 +35,12 @@ class DistanceField {
     width_ = static_cast<T>(static_cast<double>(band.half_width()) / band.spacing());
     links_.build(band);
     distance_.resize(links_.size());
-    fixed_.resize(links_.size());
+    state_.resize(links_.size());
     std::fill(distance_.begin() + links_.end(), distance_.end(), unknown);
-    std::fill(fixed_.begin() + links_.end(), fixed_.end(), std::uint8_t{1});
-    for_each_piece(execution, band.blocks(), 1, [&](std::size_t b, std::size_t) {
-      std::fill_n(distance_.data() + b * Band::volume, Band::volume, unknown);
-    });
-    counts_ = kick_off_(band, std::span<T>(distance_.data(), static_cast<std::size_t>(links_.end())), execution);
+    std::fill(state_.begin() + links_.end(), state_.end(), fixed);
     for_each_piece(execution, band.blocks(), 1, [&](std::size_t b, std::size_t) { start_block(band, b); });
-    list_known();
+    counts_ = kick_off_(band, std::span<T>(distance_.data(), static_cast<std::size_t>(links_.end())), execution);
+    list_known(band);
   }
   /// phi := distance within the half width, +-half width elsewhere.
   template <Execution E>
@@ -76,8 +73,11 @@ class DistanceField {
   typename BlockLinks<D>::Around around(Number n) const { return links_.around(n); }
   /// Numbers of the nodes that the kick-off gave distances to, ascending.
   const std::vector<Number>& known() const { return known_; }
-  /// True for these, and for what is no node of the lattice or of no block.
-  bool fixed(Number n) const { return fixed_[static_cast<std::size_t>(n)] != 0; }
+  /// State of a node, for marching and sweeping to use as they like: 0 at first, and `fixed` at the nodes next to the
+  /// interface and at what is no node of the lattice or of no block.
+  std::uint8_t state(Number n) const { return state_[static_cast<std::size_t>(n)]; }
+  std::uint8_t& state(Number n) { return state_[static_cast<std::size_t>(n)]; }
+  static constexpr std::uint8_t fixed = 0xff;
 
   T operator[](Number n) const { return distance_[static_cast<std::size_t>(n)]; }
   /// -1 or 1, the side of a node.
@@ -120,34 +120,31 @@ class DistanceField {
 
   void start_block(const Band& band, std::size_t b) {
     const auto phi = band.values().block(b);
-    Index<D> size;
-    for (int d = 0; d < D; ++d) size[d] = band.lattice().nodes()[d] - band.values().block_origin(b)[d];
-    for (std::size_t i = 0; i < Band::volume; ++i) {
-      const std::size_t n = b * Band::volume + i;
-      const bool known = distance_[n] == distance_[n];
-      fixed_[n] = known;
-      if (!known) distance_[n] = std::copysign(unknown, phi[i] < T(0) ? T(-1) : T(1));
-      if (known && !std::isfinite(phi[i])) throw_not_finite(band, b, i);
-    }
-    for (int d = 0; d < D; ++d) {
-      if (size[d] < Band::extent) fix_padding(b, d, size[d]);
-    }
-  }
-  void fix_padding(std::size_t b, int axis, std::ptrdiff_t from) {
+    T* distance = distance_.data() + b * Band::volume;
+    for (std::size_t i = 0; i < Band::volume; ++i) distance[i] = phi[i] < T(0) ? -unknown : unknown;
+    std::fill_n(state_.data() + b * Band::volume, Band::volume, std::uint8_t{0});
     std::size_t pitch = 1;
-    for (int d = 0; d < axis; ++d) pitch *= Band::extent;
-    for (std::size_t i = 0; i < Band::volume; ++i) {
-      if (static_cast<std::ptrdiff_t>(i / pitch % Band::extent) >= from) fixed_[b * Band::volume + i] = 1;
+    for (int d = 0; d < D; ++d, pitch *= Band::extent) {
+      const std::ptrdiff_t size = band.lattice().nodes()[d] - band.values().block_origin(b)[d];
+      if (size >= Band::extent) continue;
+      for (std::size_t i = 0; i < Band::volume; ++i) {
+        if (static_cast<std::ptrdiff_t>(i / pitch % Band::extent) >= size) state_[b * Band::volume + i] = fixed;
+      }
     }
   }
   [[noreturn]] static void throw_not_finite(const Band& band, std::size_t b, std::size_t i) {
     throw ValueError(message("phi is ", band.values().block(b)[i], " at node ", band.values().node(b, i),
                              ": it must be finite at and around the interface"));
   }
-  void list_known() {
+  void list_known(const Band& band) {
     known_.clear();
-    for (Number n = 0; n < links_.end(); ++n) {
-      if ((*this)[n] == (*this)[n]) known_.push_back(n);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(links_.end()); ++n) {
+      if (!(distance_[n] == distance_[n])) continue;
+      if (!std::isfinite(band.values().block(n / Band::volume)[n % Band::volume])) {
+        throw_not_finite(band, n / Band::volume, n % Band::volume);
+      }
+      known_.push_back(static_cast<Number>(n));
+      state_[n] = fixed;
     }
   }
 
@@ -156,7 +153,7 @@ class DistanceField {
   T width_{};
   BlockLinks<D> links_;
   AlignedVector<T> distance_;
-  std::vector<std::uint8_t> fixed_;
+  std::vector<std::uint8_t> state_;
   std::vector<Number> known_;
   std::vector<std::size_t> in_band_;
 };

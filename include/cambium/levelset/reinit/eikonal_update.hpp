@@ -43,6 +43,12 @@ struct EikonalSum {
   T root() const { return base + (b + std::sqrt(b * b - a * c)) / a; }
 };
 
+/// Square root of what is positive or not needed: a negative argument would cost a call.
+template <class T>
+T root_of(T square) {
+  return std::sqrt(square > T(0) ? square : T(0));
+}
+
 /// The value u >= first of all axes that count, with the sum over these = 1 (Godunov's scheme). Axes are taken in
 /// ascending order; a difference of second order without such a solution is replaced by that of first order.
 template <class T, std::size_t D>
@@ -71,24 +77,24 @@ T solve_eikonal(std::array<EikonalAxis<T>, D>& axes) {
 /// without branches, as iterations that visit nodes again and again want it.
 template <class T, std::size_t D>
 T solve_eikonal_first_order(std::array<T, D> a) {
-  for (std::size_t k = D; k-- > 1;) {
-    for (std::size_t j = 0; j < k; ++j) {
-      const T low = std::min(a[j], a[j + 1]);
-      a[j + 1] = std::max(a[j], a[j + 1]);
-      a[j] = low;
-    }
+  static_assert(D == 2 || D == 3);
+  const auto sort = [](T& p, T& q) {
+    const T low = p < q ? p : q;
+    q = p < q ? q : p;
+    p = low;
+  };
+  sort(a[0], a[1]);
+  if constexpr (D == 3) {
+    sort(a[1], a[2]);
+    sort(a[0], a[1]);
   }
-  T u = a[0] + T(1);
-  T sum{}, squares{};
-  for (std::size_t k = 1; k < D; ++k) {
-    const T above = a[k] - a[0];
-    const T count = static_cast<T>(k + 1);
-    sum += above;
-    squares += above * above;
-    const T with = a[0] + (sum + std::sqrt(sum * sum - count * (squares - T(1)))) / count;
-    u = a[k] < u ? with : u;
-  }
-  return u;
+  const T second = a[1] - a[0];
+  const T u = second < T(1) ? T(0.5) * (second + root_of(T(2) - second * second)) : T(1);
+  if constexpr (D == 2) return a[0] + u;
+  const T third = a[D - 1] - a[0];
+  const T sum = second + third;
+  const T square = sum * sum - T(3) * (second * second + third * third - T(1));
+  return a[0] + (third < u ? (sum + root_of(square)) * static_cast<T>(1.0 / 3.0) : u);
 }
 
 }  // namespace cambium::detail

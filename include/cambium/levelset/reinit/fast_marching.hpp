@@ -30,11 +30,9 @@ struct FastMarching {
     template <Execution E>
     ReinitReport operator()(NarrowBand<T, D>& band, const E& execution) {
       field_.start(band, execution);
-      state_.resize(field_.size());
       trial_.resize(field_.size());
       sum_.resize(field_.size());
-      for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = field_.fixed(static_cast<Number>(n)) ? done : 0;
-      queue_.reset(field_.width(), T(1) / T(256));
+      queue_.reset(field_.width(), T(1) / T(512));
       for (const Number n : field_.known()) {
         if (next_to_open(n)) offer(n, std::abs(field_[n]));
       }
@@ -44,13 +42,10 @@ struct FastMarching {
 
    private:
     using Number = typename detail::BlockLinks<D>::Number;
-    /// State of a node: which axes have a neighbour that is accepted, or all bits if its own distance is known.
-    static constexpr std::uint8_t done = 0xff;
-
     bool next_to_open(Number n) const {
       const auto neighbours = field_.around(n);
       bool open = false;
-      for (int way = 0; way < 2 * D; ++way) open |= state_[static_cast<std::size_t>(neighbours.next(way))] != done;
+      for (int way = 0; way < 2 * D; ++way) open |= field_.state(neighbours.next(way)) != field_.fixed;
       return open;
     }
     void march() {
@@ -58,10 +53,9 @@ struct FastMarching {
       // An entry counts unless its node was tried again since, or is accepted.
       const auto valid = [&](const auto& e) { return trial_[static_cast<std::size_t>(e.number)] == e.key; };
       while (queue_.pop(entry, valid)) {
-        const auto at = static_cast<std::size_t>(entry.number);
         const T side = field_.side(entry.number);
-        trial_[at] = T(-1);
-        state_[at] = done;
+        trial_[static_cast<std::size_t>(entry.number)] = T(-1);
+        field_.state(entry.number) = field_.fixed;
         field_.set(entry.number, side * entry.key);
         const auto neighbours = field_.around(entry.number);
         for (int d = 0; d < D; ++d) {
@@ -75,13 +69,15 @@ struct FastMarching {
     /// Tries node n, next to the node accepted last (at `first`) along `axis`. If the other neighbour along it has been
     /// accepted before, that one is nearer to the interface and nothing changes.
     void try_node(Number n, int axis, T first, T side, Number second) {
-      const auto at = static_cast<std::size_t>(n);
-      if (state_[at] >> axis & 1U) return;
-      if (state_[at] == 0) sum_[at] = {first};
-      state_[at] = static_cast<std::uint8_t>(state_[at] | 1U << axis);
+      // Bit d of its state: a neighbour along axis d is accepted. A node that is accepted itself has all bits.
+      std::uint8_t& state = field_.state(n);
+      if (state >> axis & 1U) return;
+      detail::EikonalSum<T>& sum = sum_[static_cast<std::size_t>(n)];
+      if (state == 0) sum = {first};
+      state = static_cast<std::uint8_t>(state | 1U << axis);
       const T beyond = order == 2 ? side * field_[second] : std::numeric_limits<T>::quiet_NaN();
-      sum_[at].add(detail::EikonalAxis<T>::upwind(first, beyond));
-      T distance = sum_[at].root();
+      sum.add(detail::EikonalAxis<T>::upwind(first, beyond));
+      T distance = sum.root();
       if (!(distance >= first)) distance = order == 1 ? field_.first_order(n, side) : field_.second_order(n, side);
       offer(n, distance);
     }
@@ -91,7 +87,6 @@ struct FastMarching {
     }
 
     detail::DistanceField<Start, T, D> field_;
-    std::vector<std::uint8_t> state_;
     AlignedVector<T> trial_;
     AlignedVector<detail::EikonalSum<T>> sum_;
     detail::BucketHeap<T> queue_;

@@ -116,7 +116,7 @@ struct FastSweeping {
       const auto neighbours = field_.around(from);
       for (int way = 0; way < 2 * D; ++way) {
         const Number n = neighbours.next(way);
-        if (field_.fixed(n) || std::abs(field_[n]) <= distance) continue;
+        if (field_.state(n) == field_.fixed || std::abs(field_[n]) <= distance) continue;
         std::uint32_t& open = open_[static_cast<std::size_t>(n / extent)];
         const std::uint32_t bit = 1U << (n % extent);
         if ((open & bit) != 0) continue;

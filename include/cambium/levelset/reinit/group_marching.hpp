@@ -28,8 +28,6 @@ struct GroupMarching {
     template <Execution E>
     ReinitReport operator()(NarrowBand<T, D>& band, const E& execution) {
       field_.start(band, execution);
-      state_.resize(field_.size());
-      for (std::size_t n = 0; n < state_.size(); ++n) state_[n] = field_.fixed(static_cast<Number>(n)) ? done : far;
       front_.clear();
       for (const Number n : field_.known()) update_neighbours(n, true);
       T limit = field_.width();
@@ -41,7 +39,9 @@ struct GroupMarching {
 
    private:
     using Number = typename detail::BlockLinks<D>::Number;
-    enum State : std::uint8_t { far, trial, done };
+    /// State of a node; one that is neither is far from the front.
+    static constexpr std::uint8_t trial = 1;
+    static constexpr std::uint8_t done = detail::DistanceField<Start, T, D>::fixed;
     static constexpr T group_width = static_cast<T>(D == 2 ? 1.0 / std::numbers::sqrt2 : std::numbers::inv_sqrt3);
 
     /// Takes all nodes up to `limit` out of the front, and their neighbours in.
@@ -55,7 +55,7 @@ struct GroupMarching {
         const Number n = front_[k];
         if (std::abs(field_[n]) <= limit) {
           update_neighbours(n, true);
-          state_[static_cast<std::size_t>(n)] = done;
+          field_.state(n) = done;
         } else {
           front_[kept++] = n;
         }
@@ -68,12 +68,12 @@ struct GroupMarching {
       const T side = field_.side(from);
       for (int way = 0; way < 2 * D; ++way) {
         const Number n = neighbours.next(way);
-        std::uint8_t& state = state_[static_cast<std::size_t>(n)];
+        std::uint8_t& state = field_.state(n);
         if (state == done) continue;
         const T distance = field_.first_order(n, side);
         if (!(distance < field_.width())) continue;
         if (!(side * field_[n] <= distance)) field_.set(n, side * distance);
-        if (enlist && state == far) {
+        if (enlist && state != trial) {
           state = trial;
           front_.push_back(n);
         }
@@ -81,7 +81,6 @@ struct GroupMarching {
     }
 
     detail::DistanceField<Start, T, D> field_;
-    std::vector<std::uint8_t> state_;
     std::vector<Number> front_;
   };
 };

@@ -28,14 +28,13 @@ struct LinearKickOff {
     KickOffCounts operator()(const NarrowBand<T, D>& band, std::span<T> distance, const E& execution) {
       patches_.resize(static_cast<std::size_t>(execution.count()));
       found_.assign(band.blocks(), 0);
-      sides_.find(band, execution);
+      signs_.find(band, execution);
       for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-        if (!sides_.may_cross(band, b)) return;
+        detail::CrossedNodes<T, D> crossed;
+        if (!crossed.template find<detail::Beside::edge>(band, signs_, b)) return;
         Patch<T, D>& patch = patches_[worker];
         patch.read_block(band, b, 1);
-        detail::CrossedNodes<T, D> crossed;
-        if (!crossed.read(patch)) return;
-        crossed.template for_each<detail::Beside::edge>(band, b, [&](std::size_t i) {
+        crossed.for_each([&](std::size_t i) {
           const std::ptrdiff_t at = patch.entry(i);
           Vec<D, T> inverse;
           T length{};
@@ -50,7 +49,7 @@ struct LinearKickOff {
     }
 
    private:
-    detail::BlockSides<T, D> sides_;
+    detail::SignRows<T, D> signs_;
     std::vector<Patch<T, D>> patches_;
     std::vector<std::size_t> found_;
   };
