@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // A ball in the three-dimensional deformation of LeVeque (1996), as Enright et al. (2002) made it a test of level sets:
-// the flow pulls the ball out into a sheet about a spacing thin and, from half time on, back again. Steps are long: each
-// follows particles back through a quarter of a unit of time and interpolates once.
+// the flow pulls the ball out into a sheet about a spacing thin and, from half time on, back again. Steps are long:
+// each follows particles back through a quarter of a unit of time and interpolates once.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
@@ -64,8 +64,8 @@ void write_surface(const NarrowBand<double, 3>& band, const std::string& name) {
   const auto x = columns(surface.vertices, [](const Vec<3>& v, std::size_t d) { return v[static_cast<int>(d)]; });
   const auto e = columns(surface.elements, [](const auto& v, std::size_t d) { return static_cast<double>(v[d]); });
   const auto write = [&](const auto& column, const char* what) {
-    write_npy(name + what, Columns<3, const double>({column[0].data(), column[1].data(), column[2].data()},
-                                                    column[0].size()));
+    write_npy(name + what,
+              Columns<3, const double>({column[0].data(), column[1].data(), column[2].data()}, column[0].size()));
   };
   write(x, "_vertices.npy");
   write(e, "_triangles.npy");

@@ -12,8 +12,8 @@
 #include "support/order.hpp"
 
 using namespace cambium;
-using scenes::Sphere;
 using scenes::distance_error;
+using scenes::Sphere;
 
 namespace {
 

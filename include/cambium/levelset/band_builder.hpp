@@ -128,8 +128,9 @@ void fill_unknown(NarrowBand<T, D>& band, std::size_t b) {
     std::size_t pitch = 1;
     for (int d = 0; d < D; ++d, pitch *= BlockShape<D>::extent) {
       const auto carry = [&](std::size_t i, std::size_t from) {
-        if (std::isnan(phi[i]) && !std::isnan(phi[from]))
+        if (std::isnan(phi[i]) && !std::isnan(phi[from])) {
           phi[i] = phi[from] < T(0) ? -band.half_width() : band.half_width();
+        }
       };
       for (std::size_t i = 0; i < phi.size(); ++i) {
         if (i / pitch % BlockShape<D>::extent > 0) carry(i, i - pitch);

@@ -15,16 +15,18 @@ namespace cambium::detail {
 template <class T, int D>
 class SymmetricInverse {
  public:
-  explicit SymmetricInverse(const std::array<Vec<D, T>, D>& A) {
+  explicit SymmetricInverse(const std::array<Vec<D, T>, D>& matrix) {
     if constexpr (D == 2) {
-      cofactor_ = {Vec<2, T>{A[1][1], -A[0][1]}, Vec<2, T>{-A[0][1], A[0][0]}};
+      cofactor_ = {Vec<2, T>{matrix[1][1], -matrix[0][1]}, Vec<2, T>{-matrix[0][1], matrix[0][0]}};
     } else {
-      cofactor_[0] = {A[1][1] * A[2][2] - A[1][2] * A[1][2], A[0][2] * A[1][2] - A[0][1] * A[2][2],
-                      A[0][1] * A[1][2] - A[0][2] * A[1][1]};
-      cofactor_[1] = {cofactor_[0][1], A[0][0] * A[2][2] - A[0][2] * A[0][2], A[0][1] * A[0][2] - A[0][0] * A[1][2]};
-      cofactor_[2] = {cofactor_[0][2], cofactor_[1][2], A[0][0] * A[1][1] - A[0][1] * A[0][1]};
+      cofactor_[0] = {matrix[1][1] * matrix[2][2] - matrix[1][2] * matrix[1][2],
+                      matrix[0][2] * matrix[1][2] - matrix[0][1] * matrix[2][2],
+                      matrix[0][1] * matrix[1][2] - matrix[0][2] * matrix[1][1]};
+      cofactor_[1] = {cofactor_[0][1], matrix[0][0] * matrix[2][2] - matrix[0][2] * matrix[0][2],
+                      matrix[0][1] * matrix[0][2] - matrix[0][0] * matrix[1][2]};
+      cofactor_[2] = {cofactor_[0][2], cofactor_[1][2], matrix[0][0] * matrix[1][1] - matrix[0][1] * matrix[0][1]};
     }
-    const T determinant = dot(A[0], cofactor_[0]);
+    const T determinant = dot(matrix[0], cofactor_[0]);
     exists_ = std::abs(determinant) > T(64) * std::numeric_limits<T>::epsilon();
     scale_ = T(1) / determinant;
   }
@@ -92,12 +94,12 @@ class ClosestPointSearch {
 
   Vec<D, T> newton_step(const Vec<D, T>& back, T slope, T& mu) const {
     const Vec<D, T>& g = jet_.gradient;
-    std::array<Vec<D, T>, D> A = jet_.hessian;
+    std::array<Vec<D, T>, D> matrix = jet_.hessian;
     for (int d = 0; d < D; ++d) {
-      A[d] *= mu;
-      A[d][d] += T(1);
+      matrix[d] *= mu;
+      matrix[d][d] += T(1);
     }
-    const SymmetricInverse<T, D> inverse(A);
+    const SymmetricInverse<T, D> inverse(matrix);
     if (inverse.exists()) {
       const Vec<D, T> of_gradient = inverse(g);
       const T through = dot(g, of_gradient);

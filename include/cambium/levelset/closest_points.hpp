@@ -229,12 +229,12 @@ class ClosestPoints {
   }
   void count() {
     counts_ = {};
-    for (std::size_t at = 0; at < method_.size(); ++at) {
-      if (method_[at] == unknown) continue;
+    for (const std::uint8_t method : method_) {
+      if (method == unknown) continue;
       ++counts_.nodes;
-      if (method_[at] == not_searched) {
+      if (method == not_searched) {
         ++counts_.not_searched;
-      } else if (method_[at] > 0) {
+      } else if (method > 0) {
         ++counts_.lower_order;
       }
     }

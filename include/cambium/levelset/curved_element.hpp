@@ -61,23 +61,24 @@ struct SevenNodeTriangle {
     constexpr double slope[2][3] = {{-1.0, 1.0, 0.0}, {-1.0, 0.0, 1.0}};
     for (int q = 0; q < points; ++q) {
       weight[q] = q == 0 ? 9.0 / 40.0 : (155.0 + (q < 4 ? -root : root)) / 1200.0;
-      const double L[3] = {1.0 - place[q][0] - place[q][1], place[q][0], place[q][1]};
-      fill(L, slope[0], q, along_u);
-      fill(L, slope[1], q, along_v);
+      const double lambda[3] = {1.0 - place[q][0] - place[q][1], place[q][0], place[q][1]};
+      fill(lambda, slope[0], q, along_u);
+      fill(lambda, slope[1], q, along_v);
     }
   }
 
  private:
-  /// Shape functions at L, and their derivatives along the direction in which L changes by dL.
-  constexpr void fill(const double* L, const double* dL, int q, double (*slope)[8]) {
-    const double bubble = 27.0 * L[0] * L[1] * L[2];
-    const double change = 27.0 * (dL[0] * L[1] * L[2] + L[0] * dL[1] * L[2] + L[0] * L[1] * dL[2]);
+  /// Shape functions at lambda, and their derivatives along the direction in which lambda changes by change_of.
+  constexpr void fill(const double* lambda, const double* change_of, int q, double (*slope)[8]) {
+    const double bubble = 27.0 * lambda[0] * lambda[1] * lambda[2];
+    const double change = 27.0 * (change_of[0] * lambda[1] * lambda[2] + lambda[0] * change_of[1] * lambda[2] +
+                                  lambda[0] * lambda[1] * change_of[2]);
     for (int n = 0; n < 3; ++n) {
       const int m = (n + 1) % 3;
-      value[n][q] = L[n] * (2.0 * L[n] - 1.0) + bubble / 9.0;
-      slope[n][q] = (4.0 * L[n] - 1.0) * dL[n] + change / 9.0;
-      value[3 + n][q] = 4.0 * L[n] * L[m] - bubble * 4.0 / 9.0;
-      slope[3 + n][q] = 4.0 * (L[n] * dL[m] + dL[n] * L[m]) - change * 4.0 / 9.0;
+      value[n][q] = lambda[n] * (2.0 * lambda[n] - 1.0) + bubble / 9.0;
+      slope[n][q] = (4.0 * lambda[n] - 1.0) * change_of[n] + change / 9.0;
+      value[3 + n][q] = 4.0 * lambda[n] * lambda[m] - bubble * 4.0 / 9.0;
+      slope[3 + n][q] = 4.0 * (lambda[n] * change_of[m] + change_of[n] * lambda[m]) - change * 4.0 / 9.0;
     }
     value[6][q] = bubble;
     slope[6][q] = change;

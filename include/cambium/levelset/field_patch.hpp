@@ -84,11 +84,12 @@ class FieldPatch {
       for (int d = 0; d < D; ++d) {
         const auto pitch = static_cast<std::size_t>(stride_[d]);
         const auto edge = static_cast<std::size_t>(edge_[d]);
-        for (auto i = unknown_.begin(); i != unknown_.end(); ++i) {
-          if (*i / pitch % edge > 0) carry(*i - pitch, *i);
+        for (const std::size_t i : unknown_) {
+          if (i / pitch % edge > 0) carry(i - pitch, i);
         }
-        for (auto i = unknown_.rbegin(); i != unknown_.rend(); ++i) {
-          if (*i / pitch % edge + 1 < edge) carry(*i + pitch, *i);
+        for (std::size_t k = unknown_.size(); k-- > 0;) {
+          const std::size_t i = unknown_[k];
+          if (i / pitch % edge + 1 < edge) carry(i + pitch, i);
         }
       }
       std::erase_if(unknown_, [&](std::size_t i) { return bool{known_[i]}; });

@@ -139,8 +139,9 @@ class InterfaceMeasures {
       for (const auto& [a, b] : block.shared) pieces.join(a, b);
       for (const auto& [a, b] : block.joins) joins.emplace_back(band_.inside(a), band_.inside(b));
     }
-    for (std::size_t v = 0; v < cells_.vertices(); ++v)
+    for (std::size_t v = 0; v < cells_.vertices(); ++v) {
       result_.interface_components += pieces.stands_for_set(v) ? 1 : 0;
+    }
     result_.inside_components = InsideComponents<T, D>(band_).count(joins, execution);
   }
 

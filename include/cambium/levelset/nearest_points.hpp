@@ -124,8 +124,9 @@ class NearestPoints {
     alignas(64) static constexpr auto node = [] {
       std::array<std::array<float, lanes>, 2> result{};
       for (std::size_t l = 0; l < lanes; ++l) {
+        const std::size_t row = l / extent;
         result[0][l] = static_cast<float>(l % extent);
-        result[1][l] = static_cast<float>(l / extent);
+        result[1][l] = static_cast<float>(row);
       }
       return result;
     }();

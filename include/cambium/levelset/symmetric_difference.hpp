@@ -147,7 +147,8 @@ class BlockMismatch {
         x[d] = static_cast<double>(cell[d]);
         if (d == axis) continue;
         const int k = rest % lines_;
-        x[d] += (k / 2 + 0.5 + (k % 2 == 0 ? -gauss : gauss)) * 2.0 / lines_;
+        const int pair = k / 2;
+        x[d] += (pair + 0.5 + (k % 2 == 0 ? -gauss : gauss)) * 2.0 / lines_;
         rest /= lines_;
       }
       sum += along_line(x, axis);

@@ -39,8 +39,9 @@ template <std::size_t L, class T>
 void transpose(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch, bool stream = false) {
   using Row [[gnu::vector_size(L * sizeof(T))]] = T;
   Row row[L];
-  for (std::size_t i = 0; i < L; ++i)
+  for (std::size_t i = 0; i < L; ++i) {
     std::memcpy(&row[i], from + static_cast<std::ptrdiff_t>(i) * from_pitch, sizeof(Row));
+  }
   detail::transpose_blocks<1>(row);
   for (std::size_t j = 0; j < L; ++j, to += to_pitch) {
     if (sizeof(Row) == stream_bytes && stream && can_stream_to(to)) {

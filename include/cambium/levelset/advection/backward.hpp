@@ -104,8 +104,9 @@ class Backward {
     work.front.take(level_set.band(), execution);
     push(work, velocity, t, dt, execution);
     const double stretch = work.front.stretch(lattice.spacing());
-    if (stretch > params_.longest_stretch)
+    if (stretch > params_.longest_stretch) {
       return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
+    }
     // A point of the interface is at most half of a stretched diagonal away from a point of the front.
     const double radius = clean + 0.5 * std::sqrt(static_cast<double>(D)) * std::max(stretch, 1.0);
     try {

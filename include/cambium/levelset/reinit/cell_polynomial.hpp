@@ -56,64 +56,64 @@ class CellPolynomial {
     first_ = patch.data() + first;
   }
 
-  /// Value and derivatives up to `order` = 1 or 2 at u, in spacings from the lowest corner of the cell; the others are
+  /// Value and derivatives up to `Order` = 1 or 2 at u, in spacings from the lowest corner of the cell; the others are
   /// 0.
-  template <int order>
+  template <int Order>
   Jet<T, D> jet(const Vec<D, T>& u) const {
     const Weights x(u[0]);
     const Weights y(u[1]);
-    Lanes sum[order + 1][order + 1];
+    Lanes sum[Order + 1][Order + 1];
     if constexpr (D == 2) {
-      Lanes along[order + 1];
-      add_rows<order>(first_, y, along);
-      for (int m = 0; m <= order; ++m) sum[m][0] = along[m];
+      Lanes along[Order + 1];
+      add_rows<Order>(first_, y, along);
+      for (int m = 0; m <= Order; ++m) sum[m][0] = along[m];
     } else {
-      add_planes<order>(y, Weights(u[2]), sum);
+      add_planes<Order>(y, Weights(u[2]), sum);
     }
-    return contract<order>(x, sum);
+    return contract<Order>(x, sum);
   }
 
  private:
   using Weights = LagrangeWeights<T, N>;
   using Lanes = typename Weights::Lanes;
-  template <int order>
-  using Plane = Lanes[order + 1][order + 1];
+  template <int Order>
+  using Plane = Lanes[Order + 1][Order + 1];
 
-  template <int order>
-  void add_rows(const T* from, const Weights& y, Lanes (&along)[order + 1]) const {
+  template <int Order>
+  void add_rows(const T* from, const Weights& y, Lanes (&along)[Order + 1]) const {
     // Sums start from their first term: g++ 12 misaligns arrays of vectors that it clears in a leaf function.
     const Lanes first = Lanes::load(from);
-    for (int m = 0; m <= order; ++m) along[m] = first * Lanes(y.tap(m, 0));
+    for (int m = 0; m <= Order; ++m) along[m] = first * Lanes(y.tap(m, 0));
     for (int j = 1; j < N; ++j) {
       const Lanes values = Lanes::load(from + j * stride_[1]);
-      for (int m = 0; m <= order; ++m) along[m] = fma(values, Lanes(y.tap(m, j)), along[m]);
+      for (int m = 0; m <= Order; ++m) along[m] = fma(values, Lanes(y.tap(m, j)), along[m]);
     }
   }
-  template <int order>
-  void add_planes(const Weights& y, const Weights& z, Plane<order>& sum) const {
+  template <int Order>
+  void add_planes(const Weights& y, const Weights& z, Plane<Order>& sum) const {
     for (int k = 0; k < N; ++k) {
-      Lanes along[order + 1];
-      add_rows<order>(first_ + k * stride_[D - 1], y, along);
-      for (int l = 0; l <= order; ++l) {
+      Lanes along[Order + 1];
+      add_rows<Order>(first_ + k * stride_[D - 1], y, along);
+      for (int l = 0; l <= Order; ++l) {
         const Lanes weight(z.tap(l, k));
-        for (int m = 0; m + l <= order; ++m) sum[m][l] = k == 0 ? along[m] * weight : fma(along[m], weight, sum[m][l]);
+        for (int m = 0; m + l <= Order; ++m) sum[m][l] = k == 0 ? along[m] * weight : fma(along[m], weight, sum[m][l]);
       }
     }
   }
-  template <int order>
-  static Jet<T, D> contract(const Weights& x, const Plane<order>& plane) {
+  template <int Order>
+  static Jet<T, D> contract(const Weights& x, const Plane<Order>& plane) {
     const auto at = [&](int n, int m, int l) { return sum(x.all(n) * plane[m][l]); };
     Jet<T, D> jet;
     jet.value = at(0, 0, 0);
     jet.gradient[0] = at(1, 0, 0);
     jet.gradient[1] = at(0, 1, 0);
     if constexpr (D == 3) jet.gradient[2] = at(0, 0, 1);
-    if constexpr (order == 2) {
+    if constexpr (Order == 2) {
       jet.hessian[0][0] = at(2, 0, 0);
       jet.hessian[0][1] = jet.hessian[1][0] = at(1, 1, 0);
       jet.hessian[1][1] = at(0, 2, 0);
     }
-    if constexpr (D == 3 && order == 2) {
+    if constexpr (D == 3 && Order == 2) {
       jet.hessian[0][2] = jet.hessian[2][0] = at(1, 0, 1);
       jet.hessian[1][2] = jet.hessian[2][1] = at(0, 1, 1);
       jet.hessian[2][2] = at(0, 0, 2);

@@ -90,13 +90,13 @@ class CellSearch {
     const T slope = dot(g, g);
     if (!(slope > T(0))) return false;
     if (std::isnan(mu)) mu = dot(back, g) / slope;
-    std::array<Vec<D, T>, D> A = jet.hessian;
+    std::array<Vec<D, T>, D> matrix = jet.hessian;
     for (int d = 0; d < D; ++d) {
-      A[d] *= mu;
-      A[d][d] += T(1);
+      matrix[d] *= mu;
+      matrix[d][d] += T(1);
     }
     Vec<D, T> of_residual, of_gradient;
-    if (solve_symmetric<T, D>(A, back - mu * g, of_residual) && solve_symmetric<T, D>(A, g, of_gradient)) {
+    if (solve_symmetric<T, D>(matrix, back - mu * g, of_residual) && solve_symmetric<T, D>(matrix, g, of_gradient)) {
       const T through = dot(g, of_gradient);
       if (std::abs(through) > T(0.05) * slope) {
         const T change = (dot(g, of_residual) + jet.value) / through;

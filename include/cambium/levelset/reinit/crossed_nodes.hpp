@@ -65,7 +65,7 @@ class CrossedNodes {
   using Band = NarrowBand<T, D>;
 
   /// Looks at block b and the nodes around it. \return true if there is such a node
-  template <Beside beside>
+  template <Beside By>
   bool find(const Band& band, const SignRows<T, D>& signs, std::size_t b) {
     if (!read_neighbours(band, signs, b)) return false;
     for (int d = 0; d < D; ++d) {
@@ -81,7 +81,7 @@ class CrossedNodes {
       const std::ptrdiff_t z = r / Band::extent;
       if (y >= size_[1] || (D == 3 && z >= size_[D - 1])) continue;
       const std::ptrdiff_t row = y + 1 + (D == 3 ? (z + 1) * row_nodes : 0);
-      crossed = (beside == Beside::edge ? across_edges(row) : across_cells(row)) & on_lattice;
+      crossed = (By == Beside::edge ? across_edges(row) : across_cells(row)) & on_lattice;
       any |= crossed;
     }
     return any != 0;

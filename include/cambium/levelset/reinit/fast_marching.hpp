@@ -13,9 +13,9 @@ namespace cambium {
 ///
 /// Differences of second order fall back to first order where the second neighbour is not accepted yet or further from
 /// the interface than the first. Only the kick-off runs on several threads: marching is serial.
-template <class Start = ChoppKickOff, int order = 2>
+template <class Start = ChoppKickOff, int Order = 2>
 struct FastMarching {
-  static_assert(order == 1 || order == 2, "cambium: marching is of first or of second order");
+  static_assert(Order == 1 || Order == 2, "cambium: marching is of first or of second order");
 
   struct Params {
     typename Start::Params kick_off = {};
@@ -75,10 +75,10 @@ struct FastMarching {
       detail::EikonalSum<T>& sum = sum_[static_cast<std::size_t>(n)];
       if (state == 0) sum = {first};
       state = static_cast<std::uint8_t>(state | 1U << axis);
-      const T beyond = order == 2 ? side * field_[second] : std::numeric_limits<T>::quiet_NaN();
+      const T beyond = Order == 2 ? side * field_[second] : std::numeric_limits<T>::quiet_NaN();
       sum.add(detail::EikonalAxis<T>::upwind(first, beyond));
       T distance = sum.root();
-      if (!(distance >= first)) distance = order == 1 ? field_.first_order(n, side) : field_.second_order(n, side);
+      if (!(distance >= first)) distance = Order == 1 ? field_.first_order(n, side) : field_.second_order(n, side);
       offer(n, distance);
     }
     void offer(Number n, T distance) {
