@@ -35,7 +35,7 @@ struct LagrangianParams {
   /// `steepest` anywhere in the band.
   int reinitialise_every = 0;
   double octaves = 1.0;
-  double steepest = 4.0;
+  double steepest = 2.0;
   /// Nodes with a smaller sum of weights are no longer in the band.
   double smallest_weight = 0.1;
 };
