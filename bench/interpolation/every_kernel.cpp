@@ -9,8 +9,11 @@ void bench::enter_contests(const Options& options) {
   using namespace cambium;
   enter_kernel<M4Prime>("M4Prime", options);
   enter_kernel<M6>("M6", options);
+  // Particles of half of the cells along an axis still exceed the second cache, and are measured eight times faster.
   Options fewer = options;
   fewer.rounds = options.rounds_of_others;
+  fewer.cells_2d /= 2;
+  fewer.cells_3d /= 2;
   enter_kernel<Hat>("Hat", fewer);
   enter_kernel<M3>("M3", fewer);
   enter_kernel<M4>("M4", fewer);

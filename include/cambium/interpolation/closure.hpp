@@ -8,6 +8,7 @@
 #include <cambium/core/aligned.hpp>
 #include <cambium/core/lattice.hpp>
 #include <cambium/interpolation/tap_block.hpp>
+#include <cambium/simd/pack.hpp>
 
 namespace cambium::detail {
 
@@ -62,6 +63,12 @@ class PlaneCloser {
   /// Number of values in a plane of the lattice.
   std::size_t plane_size() const { return static_cast<std::size_t>(row_size() * (D == 3 ? y_.nodes() : 1)); }
 
+  /// Tells that padded row r is about to be put: the memory it goes to is fetched meanwhile, as stores do not make the
+  /// processor fetch ahead.
+  void expect(const T* plane, std::size_t r) const {
+    const std::ptrdiff_t y = static_cast<std::ptrdiff_t>(r) - (D == 3 ? before : 0);
+    if (y >= 0 && y < (D == 3 ? y_.nodes() : 1)) simd::fetch_for_writing(plane + y * row_size(), row_size());
+  }
   /// Takes padded row r of component c, rows coming in ascending order: entry i at line[i].
   void put(T* plane, std::size_t r, int c, const T* line) {
     if constexpr (D == 2) {

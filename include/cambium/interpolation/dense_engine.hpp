@@ -83,8 +83,14 @@ class DenseEngine {
     std::size_t plane_size;
     T* plane = nullptr;
 
-    void begin(std::size_t p) { plane = engine.plane_of(number, box, p, mesh, plane_size); }
-    void row(std::size_t, std::size_t r, int c, const T* line) { closer.put(plane, r, c, line); }
+    void begin(std::size_t p) {
+      plane = engine.plane_of(number, box, p, mesh, plane_size);
+      closer.expect(plane, 0);
+    }
+    void row(std::size_t, std::size_t r, int c, const T* line) {
+      closer.put(plane, r, c, line);
+      if (c == C - 1) closer.expect(plane, r + 1);
+    }
     void end(std::size_t) { closer.finish(plane); }
   };
 

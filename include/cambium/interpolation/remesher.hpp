@@ -84,8 +84,6 @@ class Remesher<Kernel, Split, E> {
                   "cambium::Remesher: attributes remeshed together by Split must have one scalar type");
     detail::require_room_for_kernel<Kernel>(lattice);
     require_size(particles.size(), lattice.size(), "the set of particles for split remeshing");
-    const Particles<D, P>& before = particles;
-    (require_finite(read_columns(before[strengths]), "strength", execution_), ...);
     auto& plan = plans_.template get<detail::SplitPlan<Kernel, T, P, D, (Components<V>::count + ...)>>(lattice);
     return plan(particles, execution_, strengths...);
   }

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <vector>
 
+#include <cambium/interpolation/displacements.hpp>
 #include <cambium/interpolation/interpolator.hpp>
 #include <cambium/interpolation/place_particles.hpp>
 #include <cambium/interpolation/remesh_params.hpp>
 #include <cambium/interpolation/split_pass.hpp>
+#include <cambium/simd/stream.hpp>
 
 namespace cambium::detail {
 
@@ -25,10 +25,19 @@ template <class K, class T, class P, int D, int C>
 class SplitPlan {
  public:
   explicit SplitPlan(const Lattice<D>& lattice)
-      : engine{lattice}, nodes_{1, 1, 1}, first_(lattice, D - 1), middle_(lattice, 0), last_(lattice, D == 3 ? 1 : 0) {
+      : engine{lattice},
+        nodes_{1, 1, 1},
+        streams_(lattice.size() * (D * sizeof(P) + C * sizeof(T)) > (std::size_t{16} << 20)),
+        first_(lattice, D - 1),
+        middle_(lattice, 0),
+        last_(lattice, D == 3 ? 1 : 0) {
     for (int d = 0; d < D; ++d) nodes_[d] = lattice.nodes()[d];
     for (auto& array : between_) array.resize(D > 1 ? lattice.size() : 0);
-    for (Index<D> node; node[0] < nodes_[0]; ++node[0]) columns_.push_back(static_cast<P>(lattice.position(node)[0]));
+    for (int d = 0; d < D; ++d) {
+      for (Index<D> node{}; node[d] < nodes_[d]; ++node[d]) {
+        coordinates_[d].push_back(static_cast<P>(lattice.position(node)[d]));
+      }
+    }
   }
 
   /// Replaces the particles. \throws PositionError, ValueError with the particles unchanged
@@ -36,20 +45,16 @@ class SplitPlan {
   RemeshReport<V...> operator()(Particles<D, P>& particles, const E& execution, Attribute<V>... attributes) {
     const Lattice<D>& lattice = engine.on;
     const Particles<D, P>& before = particles;
-    require_positions(lattice.domain(), before.positions(), execution);
     prepare(execution);
-    Source source{before.positions(), {}};
+    Source source{before.positions(), {}, {lattice, before.positions()}};
     collect(source.strength, columns_of(before[attributes])...);
-    for (int d = 0; d < D; ++d) common_[d] = common_displacement(source.x, d);
-    if constexpr (D > 1) {
-      const std::ptrdiff_t tiles = D == 3 ? nodes_[1] : (nodes_[0] + strip - 1) / strip;
-      for_each_piece_by_worker(execution, static_cast<std::size_t>(tiles), 1,
-                               [&](std::size_t w, std::size_t tile, std::size_t) {
-                                 first_stage(source, static_cast<std::ptrdiff_t>(tile), workers_[w]);
-                               });
-    } else {
-      displace_row(source.x.column(0).data(), 0, 0, lattice.size(), workers_[0].data());
-      for (int c = 0; c < C; ++c) std::copy_n(source.strength[c], lattice.size(), local(workers_[0], 1 + c));
+    try {
+      if (!source.moved.finite()) require_positions(lattice.domain(), before.positions(), execution);
+      first_stages(source, execution);
+    } catch (const Error&) {  // wrong input comes first, in the order of the particles
+      (require_finite(read_columns(before[attributes]), "strength", execution), ...);
+      require_positions(lattice.domain(), before.positions(), execution);
+      throw;
     }
     if (particles.names().size() != sizeof...(V)) {
       particles.resize(0);
@@ -77,6 +82,7 @@ class SplitPlan {
   struct Source {
     Columns<D, const P> x;
     std::array<const T*, C> strength;
+    Displacements<P, T, D> moved;
   };
 
   /// Each thread's arrays: the tile before and after its first move, then scratch of a pass.
@@ -105,72 +111,38 @@ class SplitPlan {
     (take(views), ...);
   }
 
-  /// What displacements along a periodic axis have in common, in spacings: their circular mean over a sample.
-  double common_displacement(Columns<D, const P> x, int axis) const {
-    const Lattice<D>& lattice = engine.on;
-    if (!lattice.periodic(axis)) return 0.0;
-    const double radians = 2.0 * std::numbers::pi / static_cast<double>(nodes_[axis]);
-    double cosines = 0.0, sines = 0.0;
-    for (std::size_t p = 0; p < x.size(); p += x.size() / 1024 + 1) {
-      const double moved = static_cast<double>(x.column(axis)[p]) - lattice.position(lattice.node(p))[axis];
-      cosines += std::cos(radians * moved / lattice.spacing());
-      sines += std::sin(radians * moved / lattice.spacing());
+  /// Displacements and strengths of `count` particles from number p on, whose node is `node`, as rows of local arrays:
+  /// displacement along the moving axis; strengths; displacements along the others, next axis first.
+  /// \throws PositionError, ValueError that may name another particle than the first
+  void read_row(const Source& source, std::size_t p, std::size_t count, const Index<D>& node, std::ptrdiff_t row,
+                AlignedVector<T>& worker) const {
+    std::array<const P*, D> x;
+    std::array<const T*, C> strength;
+    for (int d = 0; d < D; ++d) x[d] = source.x.column(d).data() + p;
+    for (int c = 0; c < C; ++c) strength[c] = source.strength[c] + p;
+    require_finite(Columns<C, const T>(strength, count), "strength", Serial{});
+    if (!positions_valid(engine.on.domain(), source.x, p, p + count)) {
+      require_positions(engine.on.domain(), Columns<D, const P>(x, count), Serial{});
     }
-    return std::atan2(sines, cosines) / radians;
-  }
-  /// Displacements in spacings of particles from consecutive nodes of a row; on periodic axes the image that is closest
-  /// to the common displacement. Smooth displacements that reach around the period have particles within a spacing of
-  /// half a period from there: neighbours would carry values a period apart, whose mean means nothing.
-  /// \throws ValueError if there are such particles and the values are to be carried
-  void displace_row(const P* x, int axis, std::ptrdiff_t node, std::size_t count, T* displacement) const {
-    const Lattice<D>& lattice = engine.on;
-    const double lo = lattice.box().lo[axis];
-    const double per_spacing = 1.0 / lattice.spacing();
-    const double n = lattice.periodic(axis) ? static_cast<double>(nodes_[axis]) : 0.0;
-    const double per_period = lattice.periodic(axis) ? 1.0 / n : 0.0;
-    const auto first = static_cast<double>(node);
-    constexpr std::size_t lanes = simd::native_lanes<double>;
-    using V = simd::Pack<double, lanes>;
-    alignas(64) double at[lanes], node_at[lanes];
-    for (std::size_t l = 0; l < lanes; ++l) node_at[l] = first + (axis == 0 ? static_cast<double>(l) : 0.0);
-    V nodes = V::load_aligned(node_at);
-    const V step(axis == 0 ? static_cast<double>(lanes) : 0.0);
-    const V common(common_[axis]), half(0.5 - common_[axis] * per_period);
-    V room(n);
-    const auto shortest = [&](const V& position) {
-      const V u = (position - V(lo)) * V(per_spacing) - nodes;
-      const V moved = u - V(n) * floor(fma(u, V(per_period), half));
-      room = min(room, V(0.5 * n - 1.0) - max(moved - common, common - moved));
-      return moved;
-    };
-    std::size_t i = 0;
-    for (; i + lanes <= count; i += lanes, nodes = nodes + step) {
-      if constexpr (std::is_same_v<P, double> && std::is_same_v<T, double>) {
-        shortest(V::load(x + i)).store(displacement + i);
-      } else {
-        for (std::size_t l = 0; l < lanes; ++l) at[l] = x[i + l];
-        shortest(V::load_aligned(at)).store_aligned(at);
-        for (std::size_t l = 0; l < lanes; ++l) displacement[i + l] = static_cast<T>(at[l]);
-      }
+    for (int d = 0; d < D; ++d) {
+      const int m = d == D - 1 ? 0 : 1 + C + d;
+      source.moved.row(d, node[d], x[d], count, local(worker, m) + row * pitch_);
     }
-    if (i < count) {
-      // Lanes beyond the end repeat the last particle, at its own node.
-      for (std::size_t l = 0; l < lanes; ++l) at[l] = x[std::min(i + l, count - 1)];
-      for (std::size_t l = 0; l < lanes; ++l) {
-        node_at[l] = first + (axis == 0 ? static_cast<double>(std::min(i + l, count - 1)) : 0.0);
-      }
-      nodes = V::load_aligned(node_at);
-      shortest(V::load_aligned(at)).store_aligned(at);
-      for (std::size_t l = 0; i + l < count; ++l) displacement[i + l] = static_cast<T>(at[l]);
-    }
-    if (axis == D - 1 || !lattice.periodic(axis) || lowest_lane(room) >= 0.0) return;
-    throw ValueError(message("split remeshing: particles have moved along axis ", axis, " by up to ",
-                             0.5 * n - 1.0 - lowest_lane(room),
-                             " spacings against one another, which reaches around the "
-                             "period of ",
-                             n, ": remesh after a shorter step, or use the strategy Tensor"));
+    for (int c = 0; c < C; ++c) std::copy_n(strength[c], count, local(worker, 1 + c) + row * pitch_);
   }
 
+  template <Execution E>
+  void first_stages(const Source& source, const E& execution) {
+    if constexpr (D > 1) {
+      const std::ptrdiff_t tiles = D == 3 ? nodes_[1] : (nodes_[0] + strip - 1) / strip;
+      for_each_piece_by_worker(execution, static_cast<std::size_t>(tiles), 1,
+                               [&](std::size_t w, std::size_t tile, std::size_t) {
+                                 first_stage(source, static_cast<std::ptrdiff_t>(tile), workers_[w]);
+                               });
+    } else {
+      read_row(source, 0, engine.on.size(), Index<D>{}, 0, workers_[0]);
+    }
+  }
   /// 3D: plane y of all x and z, along axes 2 and 0. 2D: columns of a strip, along axis 1.
   void first_stage(const Source& source, std::ptrdiff_t tile, AlignedVector<T>& worker) requires(D > 1) {
     constexpr int moving = D - 1;
@@ -179,16 +151,12 @@ class SplitPlan {
     const auto at = [&](std::ptrdiff_t row) {
       return D == 2 ? row * nodes_[0] + x0 : (row * nodes_[1] + tile) * nodes_[0];
     };
-    // Local arrays: displacement along the moving axis; strengths; displacements along the others, next axis first.
     for (std::ptrdiff_t row = 0; row < nodes_[moving]; ++row) {
-      const std::ptrdiff_t from = at(row);
-      const auto count = static_cast<std::size_t>(columns);
-      for (int d = 0; d < D; ++d) {
-        const int m = d == moving ? 0 : 1 + C + d;
-        const std::ptrdiff_t node = d == 0 ? x0 : d == moving ? row : tile;
-        displace_row(source.x.column(d).data() + from, d, node, count, local(worker, m) + row * pitch_);
-      }
-      for (int c = 0; c < C; ++c) std::copy_n(source.strength[c] + from, count, local(worker, 1 + c) + row * pitch_);
+      Index<D> node{};
+      node[0] = x0;
+      node[1] = D == 2 ? row : tile;
+      node[moving] = row;
+      read_row(source, static_cast<std::size_t>(at(row)), static_cast<std::size_t>(columns), node, row, worker);
     }
     std::array<const T*, C + carried> in;
     std::array<T*, C + carried> out;
@@ -207,8 +175,9 @@ class SplitPlan {
         next_in[m] = out[m == C ? C + 1 : m];
         next_out[m] = between_[m].data() + tile * nodes_[0];
       }
-      middle_({nodes_[2], 1, pitch_}, out[C], next_in, {nodes_[2], 1, nodes_[0] * nodes_[1]}, next_out,
+      middle_({nodes_[2], 1, pitch_}, out[C], next_in, {nodes_[2], 1, nodes_[0] * nodes_[1], streams_}, next_out,
               scratch(worker));
+      simd::finish_streams();
     }
   }
 
@@ -233,35 +202,51 @@ class SplitPlan {
     const LineTile layout = D == 3 ? LineTile{nodes_[0], pitch_, 1} : LineTile{rows, 1, nodes_[0]};
     last_(layout, displacement, in, layout, out, scratch(worker));
     if constexpr (D == 3) {
-      for (int c = 0; c < C; ++c) copy_rows(out[c], pitch_, result[c] + from, nodes_[0]);
+      for (int c = 0; c < C; ++c) {
+        for (std::ptrdiff_t row = 0; row < rows; ++row) {
+          copy(out[c] + row * pitch_, nodes_[0], result[c] + from + row * nodes_[0]);
+        }
+      }
     }
     place_rows(positions, from, rows);
+    simd::finish_streams();
   }
   void copy_rows(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch) const {
     for (std::ptrdiff_t row = 0; row < nodes_[1]; ++row) {
       std::copy_n(from + row * from_pitch, nodes_[0], to + row * to_pitch);
     }
   }
+  /// What the caller gets is written past the caches if they could not hold it.
+  template <class S>
+  void copy(const S* from, std::ptrdiff_t count, S* to) const {
+    streams_ ? simd::stream_copy(from, static_cast<std::size_t>(count), to) : void(std::copy_n(from, count, to));
+  }
+  template <class S>
+  void fill(S* to, std::ptrdiff_t count, S value) const {
+    streams_ ? simd::stream_fill(to, static_cast<std::size_t>(count), value) : void(std::fill_n(to, count, value));
+  }
   /// Positions of the nodes of `rows` rows along axis 0, the first of them at number `from`.
   void place_rows(Columns<D, P> positions, std::ptrdiff_t from, std::ptrdiff_t rows) const {
-    for (std::ptrdiff_t row = 0; row < rows; ++row, from += nodes_[0]) {
-      const Vec<D> x = engine.on.position(engine.on.node(static_cast<std::size_t>(from)));
-      std::copy(columns_.begin(), columns_.end(), positions.column(0).begin() + from);
-      for (int d = 1; d < D; ++d) {
-        std::fill_n(positions.column(d).begin() + from, nodes_[0], static_cast<P>(x[d]));
-      }
+    const Index<D> first = engine.on.node(static_cast<std::size_t>(from));
+    const auto rest = [&](int d) { return positions.column(d).data() + from; };
+    for (std::ptrdiff_t row = 0; row < rows; ++row) {
+      copy(coordinates_[0].data(), nodes_[0], rest(0) + row * nodes_[0]);
     }
+    for (std::ptrdiff_t row = 0; D > 1 && row < rows; ++row) {
+      fill(rest(D > 1) + row * nodes_[0], nodes_[0], coordinates_[D > 1][first[D > 1] + row]);
+    }
+    if constexpr (D == 3) fill(rest(2), rows * nodes_[0], coordinates_[2][first[2]]);
   }
 
   std::array<std::ptrdiff_t, 3> nodes_;
+  bool streams_;  // the new particles take more than caches usually hold
   std::ptrdiff_t rows_ = 1;
   std::ptrdiff_t pitch_ = 1;
   SplitPass<K, T, C, D - 1> first_;
   SplitPass<K, T, C, 1> middle_;
   SplitPass<K, T, C, 0> last_;
-  std::array<double, 3> common_{};
   std::array<AlignedVector<T>, C + 1> between_;
-  std::vector<P> columns_;
+  std::array<std::vector<P>, D> coordinates_;  // of nodes along each axis
   std::vector<AlignedVector<T>> workers_;
 };
 

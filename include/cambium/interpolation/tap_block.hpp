@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -93,24 +94,26 @@ class TapBlock {
   /// \param count number of particles, at most 64
   /// \param row   cell of all of them along axes 1, ..., D - 1; along axis 0, the cell that counts as 0
   void locate(const std::array<const P*, D>& x, std::size_t count, const Index<D>& row) {
-    const std::size_t padded = (count + lanes - 1) / lanes * lanes;
-    const AxisLocator<K, P> axis = axis_[0];  // a copy: members would be read again after every store
-    alignas(64) P scratch[capacity];
-    for (std::size_t i = 0; i < padded; i += lanes) {
-      const Lanes u = axis.reduce(load(x[0], i, count));
-      const Lanes c = axis.cell(u);
-      store(u - c - Lanes(P(0.5)), first_ + i);
-      c.store_aligned(scratch + i);
-    }
-    const auto shift = static_cast<std::int32_t>(row[0]);
-    for (std::size_t i = 0; i < padded; ++i) {
-      cell[i] = (static_cast<std::int32_t>(scratch[i]) - shift) * static_cast<std::int32_t>(tap_lanes<K>);
-    }
-    weigh(first_, fast + slack, padded);
-    if constexpr (D > 1) locate_known(D - 1, x[D - 1], count, row[D - 1], offset);
-    if constexpr (D > 2) {
-      locate_known(1, x[1], count, row[1], first_);
-      weigh(first_, middle, padded);
+    if (count < lanes) return locate_few(x, count, row);
+    // Copies: members and arguments would be read again after every store.
+    const std::array<AxisLocator<K, P>, D> axis = axis_;
+    const std::array<const P*, D> at = x;
+    std::array<Lanes, D> middle_of_row;
+    for (int d = 0; d < D; ++d) middle_of_row[d] = Lanes(static_cast<P>(row[d]) + P(0.5));
+    const auto known = [&](int d, std::size_t i) { return axis[d].reduce(Lanes::load(at[d] + i)) - middle_of_row[d]; };
+    const Lanes node_lanes(static_cast<P>(tap_lanes<K>));
+    const Lanes first_column(static_cast<P>(-row[0]) * static_cast<P>(tap_lanes<K>));
+    // One loop over all axes, whose end the processor mispredicts once. The last vector may overlap the one before.
+    for (std::size_t i = 0;; i = std::min(i + lanes, count - lanes)) {
+      const Lanes u = axis[0].reduce(Lanes::load(at[0] + i));
+      const Lanes c = axis[0].cell(u);
+      weigh(u - c - Lanes(P(0.5)), fast + slack, i);
+      if constexpr (D > 2) weigh(known(1, i), middle, i);
+      if constexpr (D > 1) convert(known(D - 1, i)).store(offset + i);
+      alignas(64) P column[lanes];
+      fma(c, node_lanes, first_column).store_aligned(column);
+      for (std::size_t l = 0; l < lanes; ++l) cell[i + l] = static_cast<std::int32_t>(column[l]);
+      if (i + lanes >= count) break;
     }
   }
 
@@ -122,55 +125,71 @@ class TapBlock {
  private:
   using Lanes = simd::Pack<P, lanes>;
 
-  [[gnu::always_inline]] static Lanes load(const P* x, std::size_t i, std::size_t count) {
-    if (i + lanes <= count) return Lanes::load(x + i);
-    P buffer[lanes];
-    for (std::size_t l = 0; l < lanes; ++l) buffer[l] = x[i + l < count ? i + l : i];
-    return Lanes::load(buffer);
+  using Weights = simd::Pack<T, lanes>;
+
+  /// Fewer particles than lanes: the first one fills the others.
+  void locate_few(const std::array<const P*, D>& x, std::size_t count, const Index<D>& row) {
+    P few[D][lanes];
+    std::array<const P*, D> filled;
+    for (int d = 0; d < D; ++d) {
+      for (std::size_t l = 0; l < lanes; ++l) few[d][l] = x[d][l < count ? l : 0];
+      filled[d] = few[d];
+    }
+    locate(filled, lanes, row);
   }
-  [[gnu::always_inline]] static void store(const Lanes& values, T* to) {
+  [[gnu::always_inline]] static Weights convert(const Lanes& values) {
     if constexpr (std::is_same_v<T, P>) {
-      values.store_aligned(to);
+      return values;
     } else {
-      alignas(64) P buffer[lanes];
-      values.store_aligned(buffer);
-      for (std::size_t l = 0; l < lanes; ++l) to[l] = static_cast<T>(buffer[l]);
+      alignas(64) P from[lanes];
+      alignas(64) T to[lanes];
+      values.store_aligned(from);
+      for (std::size_t l = 0; l < lanes; ++l) to[l] = static_cast<T>(from[l]);
+      return Weights::load_aligned(to);
     }
   }
-  /// Offsets along an axis on which the cell is known.
-  [[gnu::always_inline]] void locate_known(int d, const P* x, std::size_t count, std::ptrdiff_t cell_of_row,
-                                           T* g) const {
-    const AxisLocator<K, P> axis = axis_[d];
-    const Lanes middle_of_cell(static_cast<P>(cell_of_row) + P(0.5));
-    for (std::size_t i = 0; i < count; i += lanes) {
-      store(axis.reduce(load(x, i, count)) - middle_of_cell, g + i);
-    }
-  }
-  /// Weights of all taps at the offsets g.
-  [[gnu::always_inline]] static void weigh(const T* g, T (*weight)[capacity], std::size_t padded) {
+  /// Weights of all taps of particles i, ..., i + lanes - 1 at the offsets g.
+  [[gnu::always_inline]] static void weigh(const Lanes& g, T (*weight)[capacity], std::size_t i) {
+    const Weights at = convert(g);
     if constexpr (Taps<K>::polynomial) {
-      using V = simd::Pack<T, lanes>;
-      for (std::size_t i = 0; i < padded; i += lanes) {
-        const V at = V::load_aligned(g + i);
-        for (std::size_t k = 0; k < support; ++k) {
-          V sum(static_cast<T>(Taps<K>::coefficients.value[Taps<K>::degree][k]));
-          for (int j = Taps<K>::degree - 1; j >= 0; --j) {
-            sum = fma(sum, at, V(static_cast<T>(Taps<K>::coefficients.value[j][k])));
-          }
-          sum.store_aligned(weight[k] + i);
-        }
+      if constexpr (Taps<K>::symmetric) {
+        weigh_symmetric(at, weight, i);
+      } else {
+        for (std::size_t k = 0; k < support; ++k) horner<0, 1>(at, k).store(weight[k] + i);
       }
     } else {
-      for (std::size_t i = 0; i < padded; ++i) {
+      alignas(64) T offset_of[lanes];
+      at.store_aligned(offset_of);
+      for (std::size_t l = 0; l < lanes; ++l) {
         T w[support];
-        Taps<K>::weights(g[i], w);
-        for (std::size_t k = 0; k < support; ++k) weight[k][i] = w[k];
+        Taps<K>::weights(offset_of[l], w);
+        for (std::size_t k = 0; k < support; ++k) weight[k][i + l] = w[k];
       }
     }
   }
 
+  /// Tap k is even(g^2) + g odd(g^2), its mirror image even(g^2) - g odd(g^2).
+  [[gnu::always_inline]] static void weigh_symmetric(const Weights& g, T (*weight)[capacity], std::size_t i) {
+    const Weights g2 = g * g;
+    for (std::size_t k = 0; k < support / 2; ++k) {
+      const Weights even = horner<0, 2>(g2, k);
+      const Weights odd = g * horner<1, 2>(g2, k);
+      (even + odd).store(weight[k] + i);
+      (even - odd).store(weight[support - 1 - k] + i);
+    }
+    if constexpr (support % 2 == 1) horner<0, 2>(g2, support / 2).store(weight[support / 2] + i);
+  }
+  /// Polynomial with the coefficients First, First + Step, First + 2 Step, ... of tap k.
+  template <int First, int Step>
+  [[gnu::always_inline]] static Weights horner(const Weights& at, std::size_t k) {
+    constexpr int highest = Taps<K>::degree - (Taps<K>::degree - First) % Step;
+    const auto coefficient = [k](int j) { return Weights(static_cast<T>(Taps<K>::coefficients.value[j][k])); };
+    Weights sum = coefficient(highest);
+    for (int j = highest - Step; j >= First; j -= Step) sum = fma(sum, at, coefficient(j));
+    return sum;
+  }
+
   std::array<AxisLocator<K, P>, D> axis_;
-  alignas(64) T first_[capacity]{};
 };
 
 }  // namespace cambium::detail

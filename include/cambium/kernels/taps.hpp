@@ -86,6 +86,17 @@ consteval TapTable<K> tabulate_taps() {
   return table;
 }
 
+/// True if tap support - 1 - k at -g is tap k at g, to the last bit.
+template <class K>
+consteval bool taps_symmetric(const TapTable<K>& table) {
+  for (int j = 0; j <= tap_degree<K>(); ++j) {
+    for (int k = 0; k < K::support; ++k) {
+      if (table.value[j][k] != (j % 2 == 0 ? 1 : -1) * table.value[j][K::support - 1 - k]) return false;
+    }
+  }
+  return tap_degree<K>() > 0;
+}
+
 }  // namespace detail
 
 /// Weights of the `support` nodes under a remeshing kernel as polynomials of the offset from the middle of the stencil.
@@ -107,6 +118,8 @@ struct Taps {
 
   /// coefficients.value[j][k]: coefficient of g^j in the weight of tap k.
   static constexpr detail::TapTable<K> coefficients = detail::tabulate_taps<K>();
+  /// True if the polynomials of the taps are mirror images of each other, as for every even kernel given by its pieces.
+  static constexpr bool symmetric = detail::taps_symmetric<K>(coefficients);
 
   /// Weights w[0], ..., w[support - 1] at g.
   template <class T>

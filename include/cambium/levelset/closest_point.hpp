@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include <cambium/levelset/closest_points.hpp>
@@ -16,13 +17,21 @@ namespace cambium {
 /// move the interface.
 template <class K>
 struct BasicClosestPoint {
-  struct Params {};
+  /// In spacings: stencils of points next to the interface must find phi as it is.
+  static constexpr double least_half_width = 5.0;
+
+  struct Params {
+    /// Distance in spacings up to which extend_slopes() takes phi for granted.
+    double known = 2.5;
+    /// Difference between two kernels, in spacings, up to which extend_slopes() takes the interface as resolved.
+    double resolved = 1e-3;
+  };
 
   template <class T, int D>
   class Method {
    public:
     Method() = default;
-    explicit Method(const Params&) {}
+    explicit Method(const Params& params) : params_(params) {}
 
     /// phi := signed distance at every node of the blocks within the half width, +-half width at the others.
     template <Execution E>
@@ -35,10 +44,31 @@ struct BasicClosestPoint {
       const ClosestPointCounts& counts = points_.counts();
       return {counts.nodes, counts.lower_order, counts.not_searched, 1};
     }
+    /// Carries phi on outwards where it is known well next to the interface only, as after an interpolation: beyond
+    /// Params::known, phi := +-|grad phi| at the closest point times the distance. Slopes stay as they are, so that
+    /// there is no kink for the next interpolation to spread. Under-resolved parts are left alone.
+    template <Execution E>
+    void extend_slopes(NarrowBand<T, D>& band, const E& execution) {
+      points_.find(band, static_cast<double>(band.half_width()), execution);
+      for_each_piece(execution, band.blocks(), 1, [&](std::size_t b, std::size_t) {
+        const auto phi = band.values().block(b);
+        for (std::size_t i = 0; i < phi.size(); ++i) phi[i] = extended(band, b, i, phi[i]);
+      });
+    }
     /// Closest points of the nodes at the last call.
     const ClosestPoints<K, T, D>& points() const { return points_; }
 
    private:
+    T extended(const NarrowBand<T, D>& band, std::size_t b, std::size_t i, T phi) const {
+      const T far = phi < T(0) ? -band.half_width() : band.half_width();
+      if (!points_.found(b, i)) return far;
+      T value = std::abs(phi);
+      const T distance = norm(points_.offset(b, i));
+      if (distance > static_cast<T>(params_.known) && points_.error(b, i) < static_cast<T>(params_.resolved)) {
+        value = distance * static_cast<T>(band.spacing()) * points_.slope(b, i);
+      }
+      return value < band.half_width() ? std::copysign(value, phi) : far;
+    }
     T distance(const NarrowBand<T, D>& band, std::size_t b, std::size_t i, T phi) const {
       const T far = phi < T(0) ? -band.half_width() : band.half_width();
       if (!points_.found(b, i)) return far;
@@ -50,6 +80,7 @@ struct BasicClosestPoint {
       return band.in_band(length) ? (phi < T(0) ? -length : length) : far;
     }
 
+    Params params_;
     ClosestPoints<K, T, D> points_;
   };
 };

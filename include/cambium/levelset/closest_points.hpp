@@ -42,6 +42,7 @@ class ClosestPoints {
     const std::size_t size = band.blocks() * Band::volume;
     for (auto& column : offset_) column.resize(size);
     error_.resize(size);
+    slope_.resize(size);
     method_.assign(size, unknown);
     search_near(band, execution);
     list_near(band);
@@ -55,6 +56,8 @@ class ClosestPoints {
   Vec<D, T> offset(std::size_t b, std::size_t i) const { return offset_at(b * Band::volume + i); }
   /// What the closest point may be off by, in spacings: the difference between two kernels.
   T error(std::size_t b, std::size_t i) const { return error_[b * Band::volume + i]; }
+  /// |grad phi| at the closest point.
+  T slope(std::size_t b, std::size_t i) const { return slope_[b * Band::volume + i]; }
   const ClosestPointCounts& counts() const { return counts_; }
 
  private:
@@ -95,7 +98,9 @@ class ClosestPoints {
             const Vec<D, T> x = patch.position(at);
             Vec<D, T> y = x + offset;
             const std::size_t to = b * Band::volume + i;
-            method_[to] = search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), &error_[to]);
+            method_[to] =
+                search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), &error_[to], slope_[to]);
+            slope_[to] /= static_cast<T>(band.spacing());
             set_offset(to, y - x);
           }
         });
@@ -121,18 +126,21 @@ class ClosestPoints {
   /// Tries kernels in turn: y becomes the point if one succeeds and is not further from x than y was by more than
   /// `slack`. \return number of the first that succeeds, or `not_searched`
   template <class First, class... Rest>
-  static std::uint8_t search(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y, T reach, T slack, T* error) {
+  static std::uint8_t search(const Patch<T, D>& patch, const Vec<D, T>& x, Vec<D, T>& y, T reach, T slack, T* error,
+                             T& slope) {
     detail::ClosestPointSearch<First, T, D> newton(patch, reach);
     Vec<D, T> at = y;
     if (newton(x, at) && norm(at - x) < norm(y - x) + slack) {
       y = at;
+      slope = norm(newton.jet().gradient);
       if (error) *error = difference(patch, at, newton.jet());
       return static_cast<std::uint8_t>(not_searched - 1 - sizeof...(Rest));
     }
     if constexpr (sizeof...(Rest) > 0) {
-      return search<Rest...>(patch, x, y, reach, slack, error);
+      return search<Rest...>(patch, x, y, reach, slack, error, slope);
     } else {
       if (error) *error = T(0.5);
+      slope = newton.jet().gradient[0];
       return not_searched;
     }
   }
@@ -188,7 +196,8 @@ class ClosestPoints {
         if (!band.lattice().contains(band.values().node(b, i))) continue;
         const Vec<D, T> x = patch.position(patch.entry(i));
         Vec<D, T> y = x + nearest.point(i) - position_in_block(i);
-        method_[to] = search<K, M4Prime, Hat>(patch, x, y, width_ + T(1), T(0.01), nullptr);
+        method_[to] = search<K, M4Prime, Hat>(patch, x, y, width_ + T(1), T(0.01), nullptr, slope_[to]);
+        slope_[to] /= static_cast<T>(band.spacing());
         error_[to] = error_[nearest.source(i)];
         set_offset(to, y - x);
       }
@@ -210,6 +219,7 @@ class ClosestPoints {
   T width_{};
   std::array<AlignedVector<T>, D> offset_;
   AlignedVector<T> error_;
+  AlignedVector<T> slope_;
   std::vector<std::uint8_t> method_;
   std::vector<std::size_t> near_;
   std::vector<std::size_t> near_begin_;

@@ -2,9 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/closest_point.hpp>
@@ -13,8 +18,11 @@ namespace cambium {
 
 /// A closed interface as the zero set of its signed distance phi, phi < 0 inside, kept in a narrow band.
 ///
-/// \tparam Reinit  how phi is made a distance, see Reinitialisation
-template <class Reinit = ClosestPoint, int D = 3, class T = double>
+/// \tparam Reinit   how phi is made a distance, see Reinitialisation
+/// \tparam Storage  Sparse: values near the interface alone. Dense: also a field with a value for every node, kept up
+/// to
+///                  date, for what works on the whole lattice
+template <class Reinit = ClosestPoint, int D = 3, class T = double, class Storage = Sparse>
 class LevelSet {
  public:
   static constexpr int dimension = D;
@@ -30,14 +38,16 @@ class LevelSet {
 
   /// From a function of the position, of any scaling, negative inside: phi := distance to its zero set. The function is
   /// called at every node of the lattice, and by several threads.
-  /// \throws InterfaceError if there is no zero crossing, or one within `wall_distance` nodes of a bounded face;
-  ///         ValueError if f is not finite
+  /// \throws InterfaceError if there is no zero crossing, or one within `wall_distance` spacings of a bounded face;
+  ///         ValueError if f is not finite or the band is too thin for the stencils of the reinitialisation
   template <class F, Execution E = OpenMP>
   LevelSet(const Lattice<D>& lattice, F&& f, const Params& params = {}, const E& execution = {})
       : band_(lattice, params.half_width * lattice.spacing()),
         next_(band_),
         marks_(lattice),
-        reinit_((check_reinitialisation<Reinit>(), params.reinit)) {
+        reinit_((check_reinitialisation<Reinit>(), params.reinit)),
+        dense_(lattice, params.half_width * lattice.spacing()) {
+    require_width(params.half_width);
     sample(f, execution);
     reinitialise(execution);
   }
@@ -48,40 +58,107 @@ class LevelSet {
   /// The reinitialisation with its buffers; that by closest points has the points of the last call.
   const Method& method() const { return reinit_; }
 
-  /// phi := signed distance to its zero set.
+  /// phi at every node of the lattice, +-half width far from the interface.
+  const Field<T, D>& phi() const requires std::same_as<Storage, Dense> { return dense_.values; }
+
+  /// phi := signed distance to its zero set. \throws InterfaceError if the interface has vanished or is too near to a
+  /// bounded face; the level set is then unchanged
   template <Execution E = OpenMP>
   ReinitReport reinitialise(const E& execution = {}) {
-    const ReinitReport report = reinit_(band_, execution);
-    detail::trim(band_, next_, marks_, margin);
+    ReinitReport report;
+    change([&] { report = reinit_(band_, execution); });
     return report;
   }
 
-  /// phi := +-half width where it is larger, and blocks only where it is not.
-  void trim() {
-    for (std::size_t b = 0; b < band_.blocks(); ++b) {
-      for (T& phi : band_.values().block(b)) phi = std::clamp(phi, -band_.half_width(), band_.half_width());
-    }
-    detail::trim(band_, next_, marks_, margin);
+  /// Makes a band again of phi that is right next to the interface only, without a reinitialisation: slopes are kept.
+  /// Reinitialisations that have no way to do so leave phi as it is, +-half width at most. \throws as reinitialise()
+  template <Execution E = OpenMP>
+  void restore_band(const E& execution = {}) {
+    change([&] {
+      if constexpr (requires { reinit_.extend_slopes(band_, execution); }) {
+        reinit_.extend_slopes(band_, execution);
+      } else {
+        for (std::size_t b = 0; b < band_.blocks(); ++b) {
+          for (T& phi : band_.values().block(b)) phi = std::clamp(phi, -band_.half_width(), band_.half_width());
+        }
+      }
+    });
   }
 
-  /// Replaces the band by another: write_block(band, b) gives values to the nodes of block b (NaN where the node is far
-  /// from the interface), for all blocks that `mark(marks)` marked.
+  /// Replaces the band by another: write_block(band, b, worker) gives values to the nodes of block b (NaN to those far
+  /// from the interface) or returns false if all are, for all blocks that `mark(marks)` marked.
+  /// \throws InterfaceError if the new values are not those of a closed interface; the level set is then unchanged
   template <class Mark, class Write, Execution E>
   void replace(Mark&& mark, Write&& write_block, const E& execution) {
     marks_.clear();
     mark(marks_);
-    next_.values().clear();
-    marks_.for_each([&](const Index<D>& block) { next_.values().activate(block); });
-    for_each_piece_by_worker(execution, next_.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-      write_block(next_, b, worker);
-      detail::fill_unknown(next_, b);
+    before_.values().clear();
+    marks_.for_each([&](const Index<D>& block) { before_.values().activate(block); });
+    written_.resize(before_.blocks());
+    for_each_piece_by_worker(execution, before_.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+      written_[b] = write_block(before_, b, worker);
+      if (written_[b]) detail::fill_unknown(before_, b);
     });
+    next_.values().clear();
+    for (std::size_t b = 0; b < before_.blocks(); ++b) {
+      if (!written_[b]) continue;
+      const std::size_t to = next_.values().activate(before_.values().block_index(b));
+      std::ranges::copy(before_.values().block(b), next_.values().block(to).begin());
+    }
     next_.find_far_sides();
+    require_off_walls(next_);
     std::swap(band_, next_);
+    dense_.take(band_);
   }
 
  private:
+  /// Nodes kept around those of the band.
   static constexpr std::ptrdiff_t margin = 5;
+  /// Stencils next to the interface must not reach over a bounded face.
+  static constexpr double wall_distance = 3.0;
+
+  static void require_width(double half_width) {
+    if constexpr (requires { Reinit::least_half_width; }) {
+      if (half_width < Reinit::least_half_width) {
+        throw ValueError(detail::message("half width of the band is ", half_width, " spacings, but stencils of the ",
+                                         "reinitialisation need ", Reinit::least_half_width, ": choose a wider band"));
+      }
+    }
+  }
+  /// Calls f, which changes values; then keeps the blocks that are needed. All is as before if that throws.
+  template <class F>
+  void change(F&& f) {
+    before_ = band_;
+    try {
+      f();
+      detail::trim(band_, next_, marks_, margin);
+      require_off_walls(band_);
+    } catch (...) {
+      std::swap(band_, before_);
+      throw;
+    }
+    dense_.take(band_);
+  }
+  void require_off_walls(const Band& band) const {
+    for (std::size_t b = 0; b < band.blocks(); ++b) {
+      const Index<D> origin = band.values().block_origin(b);
+      for (int d = 0; d < D; ++d) {
+        const std::ptrdiff_t last = lattice().nodes()[d] - 1;
+        if (!lattice().periodic(d) && (origin[d] == 0 || origin[d] + Band::extent > last)) require_off_wall(band, b, d);
+      }
+    }
+  }
+  void require_off_wall(const Band& band, std::size_t b, int d) const {
+    for (std::size_t i = 0; i < Band::volume; ++i) {
+      const Index<D> node = band.values().node(b, i);
+      if (!lattice().contains(node) || (node[d] != 0 && node[d] != lattice().nodes()[d] - 1)) continue;
+      const double distance = std::abs(static_cast<double>(band.values().block(b)[i])) / spacing();
+      if (distance >= wall_distance) continue;
+      throw InterfaceError(detail::message("the interface is ", distance, " spacings from node ", node,
+                                           " on a face of the box, across axis ", d, ": it needs ", wall_distance,
+                                           "; enlarge the box or stop earlier"));
+    }
+  }
 
   template <class F, class E>
   void sample(F&& f, const E& execution) {
@@ -125,10 +202,26 @@ class LevelSet {
     band_.find_far_sides();
   }
 
+  /// The dense field of a level set that has one.
+  struct DenseCopy {
+    DenseCopy(const Lattice<D>& lattice, double half_width) : values(lattice, static_cast<T>(half_width)) {}
+    void take(const Band& band) {
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = band(values.lattice().node(i));
+    }
+    Field<T, D> values;
+  };
+  struct NoCopy {
+    NoCopy(const Lattice<D>&, double) {}
+    void take(const Band&) {}
+  };
+
   Band band_;
   Band next_;
+  Band before_ = band_;
   detail::BlockMarks<D> marks_;
-  typename Reinit::template Method<T, D> reinit_;
+  Method reinit_;
+  std::vector<std::uint8_t> written_;
+  [[no_unique_address]] std::conditional_t<std::is_same_v<Storage, Dense>, DenseCopy, NoCopy> dense_;
 };
 
 }  // namespace cambium

@@ -33,12 +33,27 @@ struct WideVector {
     std::memcpy(&v, from, Bytes);
     return v;
   }
+  /// All bits but those of one lane of each node of W lanes.
+  template <std::size_t W>
+  static Bits mask_without(std::size_t lane) {
+    std::array<Integer, lanes> others;
+    for (std::size_t l = 0; l < lanes; ++l) others[l] = l % W == lane ? 0 : -1;
+    Bits mask;
+    std::memcpy(&mask, others.data(), Bytes);
+    return mask;
+  }
 };
 
 /// Entry 0, W, 2 W, ... of two vectors.
 template <std::size_t W, class V, std::size_t... I>
 auto every(V a, V b, std::index_sequence<I...>) {
   return __builtin_shufflevector(a, b, static_cast<int>(I * W)...);
+}
+
+/// Entry First, W times, then the next one, W times, ...
+template <std::size_t W, std::size_t First, class V, std::size_t... I>
+auto repeat(V a, std::index_sequence<I...>) {
+  return __builtin_shufflevector(a, a, static_cast<int>(First + I / W)...);
 }
 
 }  // namespace detail
@@ -53,10 +68,7 @@ void take_lane(T* nodes, std::size_t lane, std::size_t count, T* out) {
   if constexpr (2 * W * sizeof(T) <= 64 && detail::widest<T, 64 / sizeof(T)>() * sizeof(T) == 64) {
     using Wide = detail::WideVector<T, 64>;
     constexpr std::size_t held = Wide::lanes / W;  // nodes in a vector
-    std::array<typename Wide::Integer, Wide::lanes> others;
-    for (std::size_t l = 0; l < Wide::lanes; ++l) others[l] = l % W == lane ? 0 : -1;
-    typename Wide::Bits keep;
-    std::memcpy(&keep, others.data(), 64);
+    const auto keep = Wide::template mask_without<W>(lane);
     for (; i + 2 * held <= count; i += 2 * held) {
       T* first = nodes + i * W;
       T* second = first + Wide::lanes;
@@ -75,7 +87,27 @@ void take_lane(T* nodes, std::size_t lane, std::size_t count, T* out) {
 /// Puts values into one lane of a row of nodes of W lanes each: nodes[i W + lane] := values[i].
 template <std::size_t W, class T>
 void put_lane(const T* values, std::size_t lane, std::size_t count, T* nodes) {
-  for (std::size_t i = 0; i < count; ++i) nodes[i * W + lane] = values[i];
+  std::size_t i = 0;
+  if constexpr (2 * W * sizeof(T) <= 64 && detail::widest<T, 64 / sizeof(T)>() * sizeof(T) == 64) {
+    using Wide = detail::WideVector<T, 64>;
+    constexpr std::size_t held = Wide::lanes / W;  // nodes in a vector
+    const auto keep = Wide::template mask_without<W>(lane);
+    for (; i + Wide::lanes <= count; i += Wide::lanes) {
+      const auto put = Wide::load_bits(values + i);
+      const auto one = [&]<std::size_t Q>(std::integral_constant<std::size_t, Q>) {
+        T* to = nodes + i * W + Q * Wide::lanes;
+        const auto spread = detail::repeat<W, Q * held>(put, std::make_index_sequence<Wide::lanes>{});
+        const auto mixed = (Wide::load_bits(to) & keep) | (spread & ~keep);
+        std::memcpy(to, &mixed, 64);
+      };
+      [&]<std::size_t... Q>(std::index_sequence<Q...>) { (one(std::integral_constant<std::size_t, Q>{}), ...); }
+      (std::make_index_sequence<W>{});
+    }
+  }
+  for (; i < count; ++i) {
+    __builtin_prefetch(nodes + (i + 16) * W, 1);  // stores do not make the processor fetch ahead
+    nodes[i * W + lane] = values[i];
+  }
 }
 
 }  // namespace cambium::simd

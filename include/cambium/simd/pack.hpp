@@ -234,4 +234,11 @@ inline T* keep_in_register(T* pointer) {
   return pointer;
 }
 
+/// Brings memory that will be written into the cache; changes nothing else.
+template <class T>
+inline void fetch_for_writing(const T* from, std::ptrdiff_t count) {
+  constexpr std::ptrdiff_t line = 64 / sizeof(T);
+  for (std::ptrdiff_t i = 0; i < count; i += line) __builtin_prefetch(from + i, 1, 2);
+}
+
 }  // namespace cambium::simd

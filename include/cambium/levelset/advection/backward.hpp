@@ -54,8 +54,9 @@ class Backward {
   /// Advances the interface from t to t + dt with velocity(Vec<D, T> x, double time) -> Vec<D, T>, called by several
   /// threads. \throws PositionError if the interface's surroundings come from outside a bounded box, InterfaceError if
   /// it reaches its wall or vanishes; the level set is then as after the last part of the step that succeeded
-  template <class Reinit, int D, class T, class V, Execution E = OpenMP>
-  AdvectionReport step(LevelSet<Reinit, D, T>& level_set, V&& velocity, double t, double dt, const E& execution = {}) {
+  template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
+  AdvectionReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
+                       const E& execution = {}) {
     detail::require_step(t, dt);
     AdvectionReport report;
     Work<T, D> work(static_cast<std::size_t>(execution.count()));
@@ -99,11 +100,8 @@ class Backward {
     work.front.take(level_set.band(), execution);
     push(work, velocity, t, dt, execution);
     const double stretch = work.front.stretch(lattice.spacing());
-    if (stretch > params_.longest_stretch) {
-      advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
-      advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
-      return;
-    }
+    if (stretch > params_.longest_stretch)
+      return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
     // A point of the interface is at most half of a stretched diagonal away from a point of the front.
     const double radius = clean + 0.5 * std::sqrt(static_cast<double>(D)) * std::max(stretch, 1.0);
     arrive(level_set, velocity, t, dt, radius, execution, work);
@@ -114,10 +112,16 @@ class Backward {
       level_set.reinitialise(execution);
       ++report.reinitialisations;
     } else {
-      level_set.trim();
+      level_set.restore_band(execution);
     }
   }
 
+  template <class L, class V, class E, class T, int D>
+  void advance_by_halves(L& level_set, V&& velocity, double t, double dt, const E& execution, Work<T, D>& work,
+                         AdvectionReport& report) const {
+    advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
+    advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
+  }
   /// Moves the front from t to t + dt.
   template <class T, int D, class V, class E>
   void push(Work<T, D>& work, V&& velocity, double t, double dt, const E& execution) const {
@@ -165,15 +169,16 @@ class Backward {
         },
         [&](NarrowBand<T, D>& band, std::size_t b, std::size_t w) {
           Worker<T, D>& worker = work.worker[w];
-          find_near(band, b, work.bins, radius, reach, worker);
+          if (!find_near(band, b, work.bins, radius, reach, worker)) return false;
           come_from(band, b, velocity, t + dt, dt, worker);
           bring(old, band, b, worker);
+          return true;
         },
         execution);
   }
-  /// Nodes of block b that are near the front; one node, whose side all of them have, if there is none.
+  /// Nodes of block b that are near the front. \return false if there are none
   template <class T, int D>
-  static void find_near(const NarrowBand<T, D>& band, std::size_t b, const detail::PointBins<T, D>& bins, double radius,
+  static bool find_near(const NarrowBand<T, D>& band, std::size_t b, const detail::PointBins<T, D>& bins, double radius,
                         std::ptrdiff_t reach, Worker<T, D>& worker) {
     worker.nearest.reset(static_cast<T>(radius));
     const Index<D> block = band.values().block_index(b);
@@ -190,7 +195,7 @@ class Backward {
     for (std::size_t i = 0; i < band.volume; ++i) {
       if (worker.nearest.found(i) && band.lattice().contains(band.values().node(b, i))) worker.node.push_back(i);
     }
-    if (worker.node.empty()) worker.node.push_back(0);
+    return !worker.node.empty();
   }
   /// Where the particles that arrive at those nodes at `time` were dt ago, in spacings from the first node.
   template <class T, int D, class V>

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#define BOOST_TEST_MODULE backward
+#include <boost/test/unit_test.hpp>
+#include <numbers>
+#include <tuple>
+
+#include <cambium/levelset.hpp>
+#include <cambium/time.hpp>
+
+#include "levelset_scenes.hpp"
+#include "support/order.hpp"
+
+using namespace cambium;
+using scenes::Ball;
+using scenes::distance_error;
+
+namespace {
+
+template <int D>
+using Dimension = std::integral_constant<int, D>;
+using Dimensions = std::tuple<Dimension<2>, Dimension<3>>;
+
+/// Turns once around the axis of the box in unit time.
+template <int D>
+Vec<D> turning(const Vec<D>& x, double) {
+  constexpr double rate = 2.0 * std::numbers::pi;
+  Vec<D> u{};
+  u[0] = -rate * (x[1] - 0.5);
+  u[1] = rate * (x[0] - 0.5);
+  return u;
+}
+
+template <int D>
+Ball<D> ball() {
+  Ball<D> ball;
+  ball.centre[0] = 0.4;
+  ball.radius = 0.18;
+  return ball;
+}
+
+template <int D>
+Lattice<D> lattice(std::ptrdiff_t cells) {
+  return Lattice<D>::bounded_box(Box<D>::cube(), cells);
+}
+
+}  // namespace
+
+// One turn in ten steps. Paths are followed finely enough (64 parts of fourth order); the interpolations remain: h^5
+// each.
+BOOST_AUTO_TEST_CASE_TEMPLATE(turning_has_the_order_of_the_kernel, I, Dimensions) {
+  constexpr int D = I::value;
+  double coarse = 0.0;
+  for (const std::ptrdiff_t cells : {32, 64}) {
+    LevelSet<ClosestPoint, D> level_set(lattice<D>(cells), ball<D>());
+    Backward<> advection({.substeps = D == 2 ? 32 : 16});
+    for (int s = 0; s < 10; ++s) advection.step(level_set, turning<D>, 0.1 * s, 0.1);
+    const double error = distance_error(level_set.band(), ball<D>(), 2.0) / static_cast<double>(cells);
+    BOOST_TEST_MESSAGE(cells << " cells: " << error);
+    if (coarse > 0.0) BOOST_TEST(support::observed_order(coarse, error) > 4.0);
+    coarse = error;
+  }
+}
+
+// The flow turns back at half time: its speed depends on time, and the error of the paths is that of the stepper.
+template <template <class, class> class Stepper>
+double error_of_paths(int steps) {
+  LevelSet<ClosestPoint, 2> level_set(lattice<2>(128), ball<2>());
+  Backward<Lambda<6, 4>, Stepper> advection;
+  const double dt = 1.0 / steps;
+  const auto flow = [](const Vec<2>& x, double t) { return 0.6 * (1.0 - t * t) * turning<2>(x, t); };
+  for (int s = 0; s < steps; ++s) advection.step(level_set, flow, s * dt, dt);
+  const double angle = 0.6 * 2.0 * std::numbers::pi * (1.0 - 1.0 / 3.0);
+  Ball<2> exact = ball<2>();
+  exact.centre[0] = 0.5 - 0.1 * std::cos(angle);
+  exact.centre[1] = 0.5 - 0.1 * std::sin(angle);
+  return distance_error(level_set.band(), exact, 1.5);
+}
+
+BOOST_AUTO_TEST_CASE(unsteady_flow_has_the_order_of_the_stepper_in_time) {
+  BOOST_TEST(support::observed_order(error_of_paths<RK4>(4), error_of_paths<RK4>(8)) > 3.5);
+  BOOST_TEST(support::observed_order(error_of_paths<TVDRK3>(5), error_of_paths<TVDRK3>(10)) > 2.6);
+}
+
+// Whole spacings: particles come from nodes, where the kernel interpolates.
+BOOST_AUTO_TEST_CASE(a_shift_by_whole_spacings_is_exact) {
+  const auto lattice = Lattice<2>::periodic_box(Box<2>::cube(), 64);
+  LevelSet<ClosestPoint, 2> level_set(lattice, ball<2>());
+  Backward<> advection;
+  const auto shift = [](const Vec<2>&, double) { return Vec<2>{0.25, 0.125}; };
+  for (int s = 0; s < 4; ++s) advection.step(level_set, shift, 0.5 * s, 0.5);
+  const auto wrapped = [](Vec<2> x) {
+    x[1] -= 0.25;  // two units of time: half a period and a quarter
+    x[0] -= 0.5;
+    for (int d = 0; d < 2; ++d) x[d] -= std::floor(x[d] - ball<2>().centre[d] + 0.5);
+    return ball<2>()(x);
+  };
+  BOOST_TEST(distance_error(level_set.band(), wrapped, 2.0) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(threads_do_not_change_a_bit) {
+  const auto run = [](const auto& execution) {
+    LevelSet<ClosestPoint, 3> level_set(lattice<3>(32), ball<3>(), {}, execution);
+    Backward<> advection;
+    for (int s = 0; s < 2; ++s) advection.step(level_set, turning<3>, 0.05 * s, 0.05, execution);
+    std::vector<double> values;
+    for (std::size_t b = 0; b < level_set.band().blocks(); ++b) {
+      for (const double phi : level_set.band().values().block(b)) values.push_back(phi);
+    }
+    return values;
+  };
+  const auto one = run(Serial{});
+  BOOST_TEST((one == run(OpenMP{2})));
+  BOOST_TEST((one == run(OpenMP{3})));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_advanced_is_left_as_it_was) {
+  LevelSet<ClosestPoint, 2> level_set(lattice<2>(32), ball<2>());
+  const auto before = level_set.band()({16, 16});
+  Backward<> advection;
+  const auto away = [](const Vec<2>&, double) { return Vec<2>{1.0, 0.0}; };
+  const auto nowhere = [](const Vec<2>&, double) { return Vec<2>{std::nan(""), 0.0}; };
+  BOOST_CHECK_THROW(advection.step(level_set, away, 0.0, 0.38), InterfaceError);
+  BOOST_CHECK_THROW(advection.step(level_set, away, 0.0, 3.0), Error);
+  BOOST_CHECK_THROW(advection.step(level_set, nowhere, 0.0, 0.1), Error);
+  BOOST_CHECK_THROW(advection.step(level_set, away, 0.0, -1.0), ValueError);
+  BOOST_CHECK_THROW(Backward<>({.substeps = 0}), ValueError);
+  BOOST_TEST(level_set.band()({16, 16}) == before);
+}
