@@ -70,12 +70,12 @@ void for_each_band_node(const NarrowBand<T, D>& band, F&& f) {
 }
 
 /// Largest distance between the zero set of a level set, where lattice lines cross it, and that of a signed distance:
-/// the exact distance at the point where the interpolant of sixth order along the line is zero.
+/// the exact distance at the point where the interpolant of sixth order along the line is zero. Or the mean of these.
 template <class L, class F>
-double interface_error(const L& level_set, F&& exact) {
+double interface_error(const L& level_set, F&& exact, bool mean = false) {
   constexpr int D = L::dimension;
   const auto& band = level_set.band();
-  double error = 0.0;
+  double error = 0.0, sum_of_errors = 0.0, crossings = 0.0;
   for_each_band_node(band, [&](const Index<D>& node, double phi) {
     for (int d = 0; d < D; ++d) {
       double value[6];
@@ -102,9 +102,11 @@ double interface_error(const L& level_set, F&& exact) {
       Vec<D> x = band.lattice().position(node);
       x[d] += low * band.spacing();
       error = std::max(error, std::abs(exact(x)));
+      sum_of_errors += std::abs(exact(x));
+      crossings += 1.0;
     }
   });
-  return error;
+  return mean ? sum_of_errors / crossings : error;
 }
 
 /// Volume where phi < 0: a node counts by the smoothed step of Towers' kind, exact to second order for a distance.

@@ -82,8 +82,9 @@ class Lagrangian {
   /// threads.
   /// \throws PositionError if a particle leaves a bounded box or its position is not finite, InterfaceError if the
   ///         interface vanishes; the level set is then as after the last part of the step that succeeded
-  template <class Reinit, int D, class T, class V, Execution E = OpenMP>
-  LagrangianReport step(LevelSet<Reinit, D, T>& level_set, V&& velocity, double t, double dt, const E& execution = {}) {
+  template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
+  LagrangianReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
+                        const E& execution = {}) {
     detail::require_step(t, dt);
     auto& work = works_.template get<Work<T, D>>(level_set.lattice());
     LagrangianReport report;
@@ -142,6 +143,8 @@ class Lagrangian {
     if (is_time_to_reinitialise(band, work, execution)) {
       ++report.reinitialisations;
       level_set.reinitialise(execution);
+    } else {
+      level_set.restore_band(execution);
     }
   }
 
@@ -154,31 +157,25 @@ class Lagrangian {
     level_set.replace(
         [&](detail::BlockMarks<D>& marks) {
           for (std::size_t b = 0; b < work.phi.blocks(); ++b) {
-            if (!has_value(work.phi, b)) continue;
-            const Index<D> origin = work.phi.block_origin(b);
-            marks.mark(origin, origin);
+            marks.mark(work.phi.block_origin(b), work.phi.block_origin(b));
           }
         },
-        [&](NarrowBand<T, D>& band, std::size_t b, std::size_t) { write_block(work.phi, band, b); }, execution);
-    level_set.trim();
+        [&](NarrowBand<T, D>& band, std::size_t b, std::size_t) { return write_block(work.phi, band, b); }, execution);
   }
+  /// \return false if no node of the block has a value
   template <class T, int D>
-  static void write_block(const Field<T, D, Sparse>& phi, NarrowBand<T, D>& band, std::size_t b) {
+  static bool write_block(const Field<T, D, Sparse>& phi, NarrowBand<T, D>& band, std::size_t b) {
     const auto from = phi.block(static_cast<std::size_t>(phi.find(band.values().block_index(b))));
     const auto to = band.values().block(b);
     const T edge = band.half_width() - static_cast<T>(ripple * band.spacing());
+    bool any = false;
     for (std::size_t i = 0; i < to.size(); ++i) {
-      const bool known = band.lattice().contains(band.values().node(b, i));
+      const bool known = !std::isnan(from[i]) && band.lattice().contains(band.values().node(b, i));
+      any |= known;
       to[i] = known ? from[i] : std::numeric_limits<T>::quiet_NaN();
       if (std::abs(to[i]) > edge) to[i] = std::copysign(band.half_width(), to[i]);
     }
-  }
-  template <class T, int D>
-  static bool has_value(const Field<T, D, Sparse>& phi, std::size_t b) {
-    for (std::size_t i = 0; i < phi.block(b).size(); ++i) {
-      if (!std::isnan(phi.block(b)[i]) && phi.lattice().contains(phi.node(b, i))) return true;
-    }
-    return false;
+    return any;
   }
 
   template <class T, int D, class E>

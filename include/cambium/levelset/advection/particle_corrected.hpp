@@ -70,8 +70,8 @@ class ParticleCorrected {
 
   /// Advances the interface from t to t + dt with velocity(Vec<D, T> x, double time) -> Vec<D, T>, called by several
   /// threads. \throws what Base throws; the markers are then as before the step
-  template <class Reinit, int D, class T, class V, Execution E = OpenMP>
-  ParticleCorrectedReport step(LevelSet<Reinit, D, T>& level_set, V&& velocity, double t, double dt,
+  template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
+  ParticleCorrectedReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
                                const E& execution = {}) {
     detail::require_step(t, dt);
     auto& work = works_.template get<Work<T, D>>(level_set.lattice());
@@ -88,8 +88,8 @@ class ParticleCorrected {
     if (params_.reinitialise_every > 0 && work.steps % params_.reinitialise_every == 0) {
       level_set.reinitialise(execution);
       report.escaped += correct(level_set, work, execution);
-    } else {
-      level_set.trim();
+    } else if (report.escaped > 0) {
+      level_set.restore_band(execution);
     }
     work.markers.read(level_set.band(), execution);
     report.reseeded = params_.reseed_every > 0 && work.steps % params_.reseed_every == 0;
@@ -156,7 +156,11 @@ class ParticleCorrected {
               marks.mark(field->block_origin(b), field->block_origin(b));
           }
         },
-        [&](NarrowBand<T, D>& band, std::size_t b, std::size_t) { write_block(old, work, band, b); }, execution);
+        [&](NarrowBand<T, D>& band, std::size_t b, std::size_t) {
+          write_block(old, work, band, b);
+          return true;
+        },
+        execution);
     return escaped;
   }
   /// Enters the value of the ball of marker p at the corners of its cell.
