@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(rotations_bring_a_ball_back, Dim, Dimensions) {
     BOOST_TEST(std::abs(enclosed(level_set) / before - 1.0) <= D * error / ball.radius + 1e-12);
     return error;
   };
-  const std::ptrdiff_t n = D == 2 ? 64 : 48;
+  const std::ptrdiff_t n = D == 2 ? 64 : 32;
   const double coarse = turned(n), fine = turned(2 * n);
   BOOST_TEST_MESSAGE(D << "D turn " << coarse * double(n) << " h " << fine * double(2 * n) << " h");
   // Lattices turned against each other do not have the kernel's moments: first order at a fixed number of remeshings.

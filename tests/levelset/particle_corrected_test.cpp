@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(bad_input_is_named_and_leaves_markers) {
   const std::size_t markers = advection.markers(lattice).size();
   const Vec<2> first = advection.markers(lattice).positions()[0];
   const auto nan = [](const Vec<2>&, double) { return Vec<2>{std::numeric_limits<double>::quiet_NaN(), 0.0}; };
-  BOOST_CHECK_THROW(advection.step(disk, nan, 0.0, 1.0), Error);  // that of the base
+  BOOST_CHECK_THROW(advection.step(disk, nan, 0.0, 1.0), PositionError);
   BOOST_TEST(same_bits(disk.band(), before));
   BOOST_TEST(advection.markers(lattice).size() == markers);
   BOOST_TEST((advection.markers(lattice).positions()[0] == first));

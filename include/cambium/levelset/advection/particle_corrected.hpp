@@ -10,7 +10,7 @@
 #include <utility>
 
 #include <cambium/interpolation/interpolator.hpp>
-#include <cambium/levelset/advection/backward.hpp>
+#include <cambium/levelset/advection/lagrangian.hpp>
 #include <cambium/levelset/advection/markers.hpp>
 #include <cambium/levelset/advection/mover.hpp>
 
@@ -42,10 +42,10 @@ struct ParticleCorrectedReport {
 /// phi is corrected so that they touch it.
 ///
 /// An object belongs to one level set: it keeps its markers from step to step.
-/// \tparam Base  policy with Params and step(level_set, velocity, t, dt, execution), best with a `Params` that does not
-///               reinitialise by itself
+/// \tparam Base  policy with Params and step(level_set, velocity, t, dt, execution); it should leave it to this one to
+///               reinitialise, so that what that moves is corrected, too
 /// \tparam S     stepper of the markers
-template <class Base = Backward<>, template <class, class> class S = RK4>
+template <class Base = Lagrangian<>, template <class, class> class S = RK4>
 class ParticleCorrected {
  public:
   using Params = ParticleCorrectedParams<typename Base::Params>;
