@@ -4,6 +4,15 @@
 
 /// \dir levelset  Interfaces as signed distances in a narrow band: reinitialisation, advection, geometry, extension.
 #include <cambium/levelset/advection/backward.hpp>
+#include <cambium/levelset/advection/band_particles.hpp>
+#include <cambium/levelset/advection/band_reader.hpp>
+#include <cambium/levelset/advection/cell_random.hpp>
+#include <cambium/levelset/advection/cutoff.hpp>
+#include <cambium/levelset/advection/lagrangian.hpp>
+#include <cambium/levelset/advection/markers.hpp>
+#include <cambium/levelset/advection/mover.hpp>
+#include <cambium/levelset/advection/particle_corrected.hpp>
+#include <cambium/levelset/advection/steepest_slope.hpp>
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/band_field.hpp>
 #include <cambium/levelset/blocks_around.hpp>
