@@ -76,13 +76,13 @@ struct WENO3 {
     const V &a = d[0], &b = d[step], &c = d[2 * step];
     const V behind = b - a;
     const V ahead = c - b;
-    const V square_behind = behind * behind;
-    const V square_ahead = ahead * ahead;
-    // NodeDifferences may have any scale: smoothness is relative to the largest of them.
-    const V floor = detail::constant<V>(1e-6) * max(a * a, max(b * b, c * c)) + detail::constant<V>(1e-30);
-    const V rough_behind = (square_behind + floor) * (square_behind + floor);
-    const V rough_ahead = (square_ahead + floor) * (square_ahead + floor);
-    const V weight = rough_ahead / (rough_ahead + detail::constant<V>(2.0) * rough_behind);
+    // Differences may have any scale: smoothness is relative to the largest of them.
+    const V largest = max(a * a, max(b * b, c * c));
+    const V scale = detail::constant<V>(1.0) / (largest + detail::constant<V>(1e-30));
+    const V rough_behind = behind * behind * scale + detail::constant<V>(1e-6);
+    const V rough_ahead = ahead * ahead * scale + detail::constant<V>(1e-6);
+    const V square_ahead = rough_ahead * rough_ahead;
+    const V weight = square_ahead / (square_ahead + detail::constant<V>(2.0) * rough_behind * rough_behind);
     return detail::constant<V>(0.5) * (b + c - weight * (ahead - behind));
   }
 };

@@ -12,7 +12,8 @@
 namespace cambium {
 
 /// Extension off the interface by closest points: every node takes the value that kernel K interpolates at its closest
-/// point. Nodes on one normal have one closest point, so that d/dn = 0 to the accuracy of the points, without iteration.
+/// point. Nodes on one normal have one closest point, so that d/dn = 0 to the accuracy of the points, without
+/// iteration.
 ///
 /// Takes phi of any scaling. Reads `from` at nodes up to K::support / 2 spacings along each axis from the interface (3
 /// with the default: 4.3 h in 2D and 5.2 h in 3D), on both sides: a field that is known on one side only must be

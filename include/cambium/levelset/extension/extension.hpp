@@ -14,9 +14,9 @@ namespace cambium {
 ///   method(band, from, to, execution)          for const NarrowBand<T, D>& band, const Field<V, D, Sparse>& from with
 ///                                              the blocks of the band, Field<V, D, Sparse>& to; V = T or Vec<C, T>
 ///
-/// What the method may rely on: phi is a signed distance; `from` is right near the interface; each method says how near.
-/// What it must leave: `to` with the blocks of the band and a value at every node of them; `from` unchanged; the same
-/// bits for any number of threads.
+/// What the method may rely on: phi is a signed distance; `from` is right near the interface; each method says how
+/// near. What it must leave: `to` with the blocks of the band and a value at every node of them; `from` unchanged; the
+/// same bits for any number of threads.
 template <class X>
 concept Extension = std::constructible_from < typename X::template Method<double, 3>,
 const typename X::Params& > &&requires(typename X::template Method<double, 3>& method,
@@ -36,9 +36,10 @@ constexpr void check_extension() {
   static_assert(
       requires { typename X::template Method<double, 3>; },
       "cambium: an extension has a nested template Method<T, D>; see docs/concepts/Extension.md");
-  static_assert(Extension<X>,
-                "cambium: an extension's Method is made from Params and called as method(band, from, to, execution) for "
-                "fields of scalars and of vectors; see docs/concepts/Extension.md");
+  static_assert(
+      Extension<X>,
+      "cambium: an extension's Method is made from Params and called as method(band, from, to, execution) for "
+      "fields of scalars and of vectors; see docs/concepts/Extension.md");
 }
 
 }  // namespace cambium

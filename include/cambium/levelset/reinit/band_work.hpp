@@ -8,6 +8,7 @@
 #include <optional>
 
 #include <cambium/levelset/patch.hpp>
+#include <cambium/simd/pack.hpp>
 
 namespace cambium::detail {
 
@@ -64,6 +65,18 @@ T centred_square(const T* at, const Index<D>& stride) {
     sum += slope * slope;
   }
   return sum;
+}
+
+/// Smallest |phi| of N nodes in a row and of their neighbours along the axes.
+template <std::size_t N, class T, int D>
+T smallest_around(const T* at, const Index<D>& stride) {
+  using Lanes = simd::Pack<T, N>;
+  const auto size = [](const Lanes& phi) { return max(phi, Lanes(T(0)) - phi); };
+  Lanes smallest = size(Lanes::load(at));
+  for (int d = 0; d < D; ++d) {
+    for (const std::ptrdiff_t s : {-stride[d], stride[d]}) smallest = min(smallest, size(Lanes::load(at + s)));
+  }
+  return lowest_lane(smallest);
 }
 
 }  // namespace cambium::detail

@@ -145,7 +145,7 @@ struct PdeReinit {
       alignas(64) std::array<T, Band::volume> next;
       for (std::size_t i = 0; i < Band::volume; i += lanes) {
         const T* at = patch.data() + patch.entry(i);
-        if (!(nearest(at, patch.stride()) < half_width)) {
+        if (!(detail::smallest_around<lanes>(at, patch.stride()) < half_width)) {
           for (std::size_t l = 0; l < lanes; ++l) next[i + l] = far(at[l], half_width);
           continue;
         }
@@ -162,18 +162,6 @@ struct PdeReinit {
         }
       }
       std::copy(next.begin(), next.end(), to);
-    }
-    /// Smallest |phi| of a row and the rows next to it: where it is above the half width, nothing happens that matters.
-    static T nearest(const T* at, const Index<D>& stride) {
-      const Lanes zero(T(0));
-      Lanes least = max(Lanes::load(at), zero - Lanes::load(at));
-      for (int d = 0; d < D; ++d) {
-        for (const std::ptrdiff_t s : {-stride[d], stride[d]}) {
-          const Lanes phi = Lanes::load(at + s);
-          least = min(least, max(phi, zero - phi));
-        }
-      }
-      return lowest_lane(least);
     }
     static Lanes gradient_square(const T* at, const Index<D>& stride, const T* sign) {
       const Lanes huge(T(1e30));
