@@ -8,6 +8,7 @@
 #include <cambium/levelset/advection/band_reader.hpp>
 #include <cambium/levelset/advection/cell_random.hpp>
 #include <cambium/levelset/advection/cutoff.hpp>
+#include <cambium/levelset/advection/eulerian.hpp>
 #include <cambium/levelset/advection/lagrangian.hpp>
 #include <cambium/levelset/advection/markers.hpp>
 #include <cambium/levelset/advection/mover.hpp>
@@ -26,6 +27,7 @@
 #include <cambium/levelset/disjoint_sets.hpp>
 #include <cambium/levelset/edge_root.hpp>
 #include <cambium/levelset/extension/by_closest_point.hpp>
+#include <cambium/levelset/extension/by_pde.hpp>
 #include <cambium/levelset/extension/extension.hpp>
 #include <cambium/levelset/field_patch.hpp>
 #include <cambium/levelset/front.hpp>
@@ -49,6 +51,8 @@
 #include <cambium/levelset/patch.hpp>
 #include <cambium/levelset/point_bins.hpp>
 #include <cambium/levelset/point_box.hpp>
+#include <cambium/levelset/reinit/band_work.hpp>
+#include <cambium/levelset/reinit/block_activity.hpp>
 #include <cambium/levelset/reinit/block_links.hpp>
 #include <cambium/levelset/reinit/bucket_heap.hpp>
 #include <cambium/levelset/reinit/cell_polynomial.hpp>
@@ -58,9 +62,15 @@
 #include <cambium/levelset/reinit/eikonal_update.hpp>
 #include <cambium/levelset/reinit/fast_marching.hpp>
 #include <cambium/levelset/reinit/fast_sweeping.hpp>
+#include <cambium/levelset/reinit/gradient_normalised.hpp>
 #include <cambium/levelset/reinit/group_marching.hpp>
+#include <cambium/levelset/reinit/interface_distance.hpp>
 #include <cambium/levelset/reinit/kick_off.hpp>
+#include <cambium/levelset/reinit/lagrangian_reinit.hpp>
 #include <cambium/levelset/reinit/linear_kick_off.hpp>
+#include <cambium/levelset/reinit/pde_reinit.hpp>
+#include <cambium/levelset/reinit/upwind_lagrangian_reinit.hpp>
+#include <cambium/levelset/reinit/volume_constraint.hpp>
 #include <cambium/levelset/reinitialisation.hpp>
 #include <cambium/levelset/sampler.hpp>
 #include <cambium/levelset/shapes/amorphous.hpp>
@@ -82,3 +92,4 @@
 #include <cambium/levelset/shapes/zalesak_disk.hpp>
 #include <cambium/levelset/surface.hpp>
 #include <cambium/levelset/symmetric_difference.hpp>
+#include <cambium/levelset/weno.hpp>
