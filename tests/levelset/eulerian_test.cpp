@@ -50,7 +50,7 @@ using Reinit = PdeReinit<>;
 template <int D, class T = double>
 LevelSet<Reinit, D, T> ball_set(int cells, const Vec<D>& centre) {
   typename LevelSet<Reinit, D, T>::Params params;
-  params.reinit = {.iterations = 3, .subcell_fix = SubcellFix::HighOrder};
+  params.reinit = {.iterations = 3, .subcell_fix = SubcellFix::high_order};
   return LevelSet<Reinit, D, T>(support::box_of_ball<D>(cells), ball_at<D>(centre), params, Serial{});
 }
 

@@ -66,9 +66,9 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(order_from_a_badly_scaled_phi, Dim, Dimensions) {
   // Plain: the interface moves. Russo and Smereka: the distance at the nodes next
   // to it is phi over the gradient there, second order in theory. Cubic stencils: derivatives of order 3, distances
   // of 4.
-  const double plain = order(SubcellFix::None);
-  const double second = order(SubcellFix::RussoSmereka);
-  const double high = order(SubcellFix::HighOrder);
+  const double plain = order(SubcellFix::none);
+  const double second = order(SubcellFix::russo_smereka);
+  const double high = order(SubcellFix::high_order);
   BOOST_TEST(plain < 1.9);
   BOOST_TEST(second > 1.7);
   BOOST_TEST(high > 3.5);
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_a_distance_kept_is_that_of_the_scheme) {
 }
 
 BOOST_AUTO_TEST_CASE(single_precision) {
-  for (const SubcellFix fix : {SubcellFix::None, SubcellFix::RussoSmereka, SubcellFix::HighOrder}) {
+  for (const SubcellFix fix : {SubcellFix::none, SubcellFix::russo_smereka, SubcellFix::high_order}) {
     const PdeReinitParams params{.subcell_fix = fix};
     const double in_double = error<PdeReinit<>, 2, double>(64, 10.0, params);
     const double in_float = error<PdeReinit<>, 2, float>(64, 10.0, params);
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(single_precision) {
 BOOST_AUTO_TEST_CASE(the_subcell_fix_of_high_order_is_steady) {
   // A stencil with two nodes ahead of the interface runs away within 100 iterations.
   const auto set_error = [](int iterations) {
-    return error<PdeReinit<>, 2>(40, 10.0, {.iterations = iterations, .subcell_fix = SubcellFix::HighOrder});
+    return error<PdeReinit<>, 2>(40, 10.0, {.iterations = iterations, .subcell_fix = SubcellFix::high_order});
   };
   BOOST_TEST(set_error(400) < 1.01 * set_error(100));
 }
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(corners_and_thin_parts_give_no_nan) {
   const auto slotted = [](const Vec<2>& x) {
     return std::max(norm(x) - 0.5, -std::max(std::abs(x[0]) - 0.04, x[1] - 0.3));
   };
-  for (const SubcellFix fix : {SubcellFix::None, SubcellFix::RussoSmereka, SubcellFix::HighOrder}) {
+  for (const SubcellFix fix : {SubcellFix::none, SubcellFix::russo_smereka, SubcellFix::high_order}) {
     auto set = level_set<PdeReinit<>, 2>(64, slotted, {.subcell_fix = fix, .volume_constraint = true});
     for (int call = 0; call < 5; ++call) set.reinitialise(Serial{});
     bool finite = true;
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(corners_and_thin_parts_give_no_nan) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(same_bits_for_any_number_of_threads, Dim, Dimensions) {
   constexpr int D = Dim::value;
   typename LevelSet<PdeReinit<>, D>::Params all;
-  all.reinit = {.iterations = 4, .subcell_fix = SubcellFix::HighOrder, .volume_constraint = true};
+  all.reinit = {.iterations = 4, .subcell_fix = SubcellFix::high_order, .volume_constraint = true};
   const LevelSet<PdeReinit<>, D> one(support::box_of_ball<D>(32), support::ScaledBall<D>{4.0}, all, OpenMP{1});
   for (const int threads : {2, 3}) {
     const LevelSet<PdeReinit<>, D> more(support::box_of_ball<D>(32), support::ScaledBall<D>{4.0}, all, OpenMP{threads});
@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(a_second_call_allocates_nothing) {
   const auto set = level_set<PdeReinit<>, 2>(48, support::OffCentreBall<2>(), {.iterations = 1});
   NarrowBand<double, 2> band = set.band();
   PdeReinit<>::Method<double, 2> method(
-      {.iterations = 2, .subcell_fix = SubcellFix::HighOrder, .volume_constraint = true});
+      {.iterations = 2, .subcell_fix = SubcellFix::high_order, .volume_constraint = true});
   method(band, Serial{});
   const std::size_t before = allocations;
   method(band, Serial{});

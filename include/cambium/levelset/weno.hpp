@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 
 #include <cambium/simd/pack.hpp>
@@ -129,8 +130,8 @@ class NodeDifferences {
   static constexpr std::ptrdiff_t count = 2 * Scheme::reach;
 
   /// \param value  value(k) is f at the node k steps away
-  template <class F>
-  explicit NodeDifferences(F&& value) {
+  template <std::invocable<std::ptrdiff_t> F>
+  explicit NodeDifferences(const F& value) {
     V last = value(-Scheme::reach);
     for (std::ptrdiff_t k = 0; k < count; ++k) {
       const V next = value(k + 1 - Scheme::reach);

@@ -152,8 +152,9 @@ class ParticleCorrected {
         [&](detail::BlockMarks<D>& marks) {
           for (const Field<T, D, Sparse>* field :
                {&old.values(), &std::as_const(work.outside), &std::as_const(work.inside)}) {
-            for (std::size_t b = 0; b < field->blocks(); ++b)
+            for (std::size_t b = 0; b < field->blocks(); ++b) {
               marks.mark(field->block_origin(b), field->block_origin(b));
+            }
           }
         },
         [&](NarrowBand<T, D>& band, std::size_t b, std::size_t) {

@@ -19,9 +19,9 @@ namespace cambium {
 
 /// How a reinitialisation by PDE treats nodes next to the interface.
 enum class SubcellFix {
-  None,          ///< like all others: upwind stencils cross the interface and move it
-  RussoSmereka,  ///< pulled to a distance taken from phi_0 (Russo & Smereka 2000): second order
-  HighOrder      ///< the interface is a node of their stencils (du Chene, Min & Gibou 2008): fourth order
+  none,           ///< like all others: upwind stencils cross the interface and move it
+  russo_smereka,  ///< pulled to a distance taken from phi_0 (Russo & Smereka 2000): second order
+  high_order      ///< the interface is a node of their stencils (du Chene, Min & Gibou 2008): fourth order
 };
 
 /// Options of PdeReinit.
@@ -30,7 +30,7 @@ struct PdeReinitParams {
   int iterations = 0;
   /// Pseudo-time step over spacing.
   double cfl = 0.5;
-  SubcellFix subcell_fix = SubcellFix::None;
+  SubcellFix subcell_fix = SubcellFix::none;
   /// Keep the volume in every cell (Sussman & Fatemi 1999).
   bool volume_constraint = false;
 };
@@ -94,21 +94,21 @@ struct PdeReinit {
     template <Execution E>
     void find_signs(const Band& band, const E& execution) {
       sign_.resize(band.blocks() * Band::volume);
-      if (params_.subcell_fix != SubcellFix::None) near_.resize(band.blocks());
+      if (params_.subcell_fix != SubcellFix::none) near_.resize(band.blocks());
       for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
         Patch<T, D>& patch = patches_[worker];
         patch.read_block(band, b, detail::NearNodes<T, D>::reach);
         T* sign = sign_.data() + b * Band::volume;
         for (std::size_t i = 0; i < Band::volume; ++i) {
           const T* at = patch.data() + patch.entry(i);
-          if (params_.subcell_fix != SubcellFix::None) {
+          if (params_.subcell_fix != SubcellFix::none) {
             sign[i] = at[0] < T(0) ? T(-1) : T(1);
           } else {
             const T length = std::sqrt(at[0] * at[0] + detail::centred_square<T, D>(at, patch.stride()));
             sign[i] = length > T(0) ? at[0] / length : T(0);
           }
         }
-        if (params_.subcell_fix != SubcellFix::None) near_.find(band, b, patch);
+        if (params_.subcell_fix != SubcellFix::none) near_.find(band, b, patch);
       });
     }
 
@@ -155,7 +155,7 @@ struct PdeReinit {
           next[i + l] = relax(i + l, at[l], sign[i + l] * (T(1) - std::sqrt(square[l]) / h));
         }
       }
-      if (params_.subcell_fix != SubcellFix::None) {
+      if (params_.subcell_fix != SubcellFix::none) {
         for (const detail::NearNode<T, D>& near : near_[b]) {
           const T* at = patch.data() + patch.entry(near.node);
           next[near.node] = relax(near.node, at[0], near_rate(near, at, patch.stride(), h));
@@ -174,7 +174,7 @@ struct PdeReinit {
       return sum;
     }
     T near_rate(const detail::NearNode<T, D>& near, const T* at, const Index<D>& stride, T h) const {
-      if (params_.subcell_fix == SubcellFix::RussoSmereka) return (near.distance - at[0]) / h;
+      if (params_.subcell_fix == SubcellFix::russo_smereka) return (near.distance - at[0]) / h;
       return near.step * near.sign * (T(1) - detail::subcell_gradient<Scheme>(near, at, stride, h) / h);
     }
 
