@@ -23,6 +23,15 @@ double error(double slope, double within, const LagrangianReinitParams& params) 
   return support::distance_error(set.band(), within, support::OffCentreBall<D>());
 }
 
+/// True if a distance is off by more than `most` afterwards, or has zeros next to the walls, where there were none.
+bool spoils_a_distance(int steps, double dtau, double most) {
+  try {
+    return error<2>(1.0, 3.0, {.iterations = steps, .dtau = dtau}) > most;
+  } catch (const InterfaceError&) {
+    return true;
+  }
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(slopes_next_to_the_interface_go_to_one) {
@@ -42,7 +51,7 @@ BOOST_AUTO_TEST_CASE(a_distance_does_not_stay_one) {
   for (const double dtau : {0.2, 1.0}) {
     const int steps = static_cast<int>(std::round(16.0 / dtau));
     BOOST_TEST(error<2>(1.0, 3.0, {.iterations = 1, .dtau = dtau}) < 1e-4 * h);
-    BOOST_TEST(error<2>(1.0, 3.0, {.iterations = steps, .dtau = dtau}) > 0.5 * h);
+    BOOST_TEST(spoils_a_distance(steps, dtau, 0.5 * h));
   }
 }
 

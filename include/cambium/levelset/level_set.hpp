@@ -77,22 +77,26 @@ class LevelSet {
   }
 
   /// Makes a band again of phi that is right next to the interface only, without a reinitialisation: slopes are kept.
-  /// Reinitialisations that have no way to do so leave phi as it is, +-half width at most. \throws as reinitialise()
+  /// Reinitialisations that have no way to do so leave phi as trim() does. \throws as reinitialise()
   template <Execution E = OpenMP>
   void restore_band(const E& execution = {}) {
+    if constexpr (requires { reinit_.extend_slopes(band_, execution); }) {
+      change([&] { reinit_.extend_slopes(band_, execution); });
+    } else {
+      trim();
+    }
+  }
+  /// phi := +-half width where it is larger, and blocks only where it is not. \throws as reinitialise()
+  void trim() {
     change([&] {
-      if constexpr (requires { reinit_.extend_slopes(band_, execution); }) {
-        reinit_.extend_slopes(band_, execution);
-      } else {
-        for (std::size_t b = 0; b < band_.blocks(); ++b) {
-          for (T& phi : band_.values().block(b)) phi = std::clamp(phi, -band_.half_width(), band_.half_width());
-        }
+      for (std::size_t b = 0; b < band_.blocks(); ++b) {
+        for (T& phi : band_.values().block(b)) phi = std::clamp(phi, -band_.half_width(), band_.half_width());
       }
     });
   }
 
   /// Replaces the band by another: write_block(band, b, worker) gives values to the nodes of block b (NaN to those far
-  /// from the interface) or returns false if all are, for all blocks that `mark(marks)` marked.
+  /// from the interface), or returns false if all are far, for all blocks that `mark(marks)` marked.
   /// \throws InterfaceError if the new values are not those of a closed interface; the level set is then unchanged
   template <class Mark, class Write, Execution E>
   void replace(Mark&& mark, Write&& write_block, const E& execution) {
@@ -112,7 +116,7 @@ class LevelSet {
       std::ranges::copy(before_.values().block(b), next_.values().block(to).begin());
     }
     next_.find_far_sides();
-    require_off_walls(next_);
+    detail::check_walls(next_, wall_distance_);
     std::swap(band_, next_);
     dense_.take(band_);
   }
@@ -136,34 +140,13 @@ class LevelSet {
     try {
       f();
       detail::trim(band_, next_, marks_, margin);
-      require_off_walls(band_);
+      detail::check_walls(band_, wall_distance_);
     } catch (...) {
       std::swap(band_, before_);
       throw;
     }
     dense_.take(band_);
   }
-  void require_off_walls(const Band& band) const {
-    for (std::size_t b = 0; b < band.blocks(); ++b) {
-      const Index<D> origin = band.values().block_origin(b);
-      for (int d = 0; d < D; ++d) {
-        const std::ptrdiff_t last = lattice().nodes()[d] - 1;
-        if (!lattice().periodic(d) && (origin[d] == 0 || origin[d] + Band::extent > last)) require_off_wall(band, b, d);
-      }
-    }
-  }
-  void require_off_wall(const Band& band, std::size_t b, int d) const {
-    for (std::size_t i = 0; i < Band::volume; ++i) {
-      const Index<D> node = band.values().node(b, i);
-      if (!lattice().contains(node) || (node[d] != 0 && node[d] != lattice().nodes()[d] - 1)) continue;
-      const double distance = std::abs(static_cast<double>(band.values().block(b)[i])) / spacing();
-      if (distance >= static_cast<double>(wall_distance_)) continue;
-      throw InterfaceError(detail::message("the interface is ", distance, " spacings from node ", node,
-                                           " on a face of the box, across axis ", d, ": it needs ", wall_distance_,
-                                           "; enlarge the box or stop earlier"));
-    }
-  }
-
   template <class F, class E>
   void sample(F& f, const E& execution) {
     const detail::Sampler<T, D, F> sampler(band_, f);

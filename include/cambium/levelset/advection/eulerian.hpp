@@ -218,6 +218,7 @@ class Eulerian {
         [&](NarrowBand<T, D>& to, std::size_t b, std::size_t) {
           const std::ptrdiff_t from = band.values().find(to.values().block_index(b));
           std::ranges::copy(band.values().block(static_cast<std::size_t>(from)), to.values().block(b).begin());
+          return true;
         },
         execution);
   }

@@ -95,10 +95,12 @@ class CellSearch {
       matrix[d] *= mu;
       matrix[d][d] += T(1);
     }
-    Vec<D, T> of_residual, of_gradient;
-    if (solve_symmetric<T, D>(matrix, back - mu * g, of_residual) && solve_symmetric<T, D>(matrix, g, of_gradient)) {
+    const SymmetricInverse<T, D> inverse(matrix);
+    if (inverse.exists()) {
+      const Vec<D, T> of_gradient = inverse(g);
       const T through = dot(g, of_gradient);
       if (std::abs(through) > T(0.05) * slope) {
+        const Vec<D, T> of_residual = inverse(back - mu * g);
         const T change = (dot(g, of_residual) + jet.value) / through;
         step = of_residual - change * of_gradient;
         mu += change;
