@@ -16,6 +16,7 @@
 #include <cambium/levelset/advection/steepest_slope.hpp>
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/band_field.hpp>
+#include <cambium/levelset/block_reach.hpp>
 #include <cambium/levelset/blocks_around.hpp>
 #include <cambium/levelset/cell_moments.hpp>
 #include <cambium/levelset/closest_point.hpp>

@@ -82,6 +82,11 @@ class Field<T, D, Sparse> {
     }
     return activate(block_of(node));
   }
+  /// Makes room for so many blocks, so that memory is neither moved nor set aside in vain when they are activated.
+  void reserve(std::size_t blocks) {
+    values_.reserve(blocks * Shape::volume);
+    origins_.reserve(blocks);
+  }
   /// Removes all blocks; keeps the memory for reuse.
   void clear() {
     for (const auto& index : origins_) table_[entry(index)] = absent;

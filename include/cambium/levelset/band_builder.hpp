@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <cambium/levelset/block_reach.hpp>
 #include <cambium/levelset/narrow_band.hpp>
 
 namespace cambium::detail {
@@ -47,6 +49,22 @@ class BlockMarks {
       marked_[static_cast<std::size_t>(number)] = 1;
     }
   }
+  /// Marks those blocks of a set around `block` that there are.
+  void mark(const Index<D>& block, const BlockReach<D>& reach, const typename BlockReach<D>::Set& set) {
+    reach.for_each(set, [&](const Index<D>& step) {
+      std::ptrdiff_t number = 0;
+      std::ptrdiff_t pitch = 1;
+      for (int d = 0; d < D; ++d) {
+        std::ptrdiff_t to = block[d] + step[d];
+        if (lattice_.periodic(d)) to = ((to % grid_[d]) + grid_[d]) % grid_[d];
+        if (to < 0 || to >= grid_[d]) return;
+        number += to * pitch;
+        pitch *= grid_[d];
+      }
+      marked_[static_cast<std::size_t>(number)] = 1;
+    });
+  }
+  std::size_t count() const { return static_cast<std::size_t>(std::ranges::count(marked_, std::uint8_t{1})); }
   /// Calls f(index of the block) for every marked block in ascending order.
   template <class F>
   void for_each(F&& f) const {
@@ -76,32 +94,27 @@ class BlockMarks {
   std::vector<std::uint8_t> marked_;
 };
 
-/// Keeps, of the blocks of a band, those within `margin` nodes of its band nodes, and adds those that are missing.
+/// Keeps, of the blocks of a band, those within `reach` of its band nodes, and adds those that are missing.
+/// \param came_from  of each block, the number that it had before, or -1
 template <class T, int D>
-void trim(NarrowBand<T, D>& band, NarrowBand<T, D>& scratch, BlockMarks<D>& marks, std::ptrdiff_t margin) {
+void trim(NarrowBand<T, D>& band, NarrowBand<T, D>& scratch, BlockMarks<D>& marks, const BlockReach<D>& reach,
+          std::vector<std::ptrdiff_t>& came_from) {
   marks.clear();
+  auto set = reach.empty_set();
   for (std::size_t b = 0; b < band.blocks(); ++b) {
-    Index<D> low = Index<D>::constant(std::numeric_limits<std::ptrdiff_t>::max());
-    Index<D> high = Index<D>::constant(-1);
-    for (std::size_t i = 0; i < band.volume; ++i) {
-      if (!band.in_band(band.values().block(b)[i])) continue;
-      const Index<D> node = band.values().node(b, i);
-      if (!band.lattice().contains(node)) continue;
-      for (int d = 0; d < D; ++d) {
-        low[d] = std::min(low[d], node[d]);
-        high[d] = std::max(high[d], node[d]);
-      }
+    std::ranges::fill(set, 0);
+    const auto phi = band.values().block(b);
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      if (band.in_band(phi[i]) && band.lattice().contains(band.values().node(b, i))) reach.add(i, set);
     }
-    if (high[0] < 0) continue;
-    for (int d = 0; d < D; ++d) {
-      low[d] -= margin;
-      high[d] += margin;
-    }
-    marks.mark(low, high);
+    marks.mark(band.values().block_index(b), reach, set);
   }
   scratch.values().clear();
+  scratch.values().reserve(marks.count());
+  came_from.clear();
   marks.for_each([&](const Index<D>& block) {
     const std::ptrdiff_t from = band.values().find(block);
+    came_from.push_back(from);
     const T far = band.far_value(block);
     const auto to = scratch.values().block(scratch.values().activate(block));
     if (from < 0) {

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include <cambium/levelset/closest_points.hpp>
 #include <cambium/levelset/reinitialisation.hpp>
@@ -55,6 +57,8 @@ struct BasicClosestPoint {
         for (std::size_t i = 0; i < phi.size(); ++i) phi[i] = extended(band, b, i, phi[i]);
       });
     }
+    /// The blocks of the band have new numbers: block b was block came_from[b], or -1 if it is new.
+    void take_blocks(const std::vector<std::ptrdiff_t>& came_from) { points_.take_blocks(came_from); }
     /// Closest points of the nodes at the last call.
     const ClosestPoints<K, T, D>& points() const { return points_; }
 

@@ -55,6 +55,17 @@ class ClosestPoints {
     count();
   }
 
+  /// Makes the points those of a band with other blocks: block b was block came_from[b], or -1 if it has no points.
+  void take_blocks(const std::vector<std::ptrdiff_t>& came_from) {
+    bool same = came_from.size() * Band::volume == method_.size();
+    for (std::size_t b = 0; same && b < came_from.size(); ++b) same = came_from[b] == static_cast<std::ptrdiff_t>(b);
+    if (same) return;
+    for (auto& column : offset_) take_blocks(column, came_from, T(0), spare_);
+    take_blocks(error_, came_from, T(0), spare_);
+    take_blocks(slope_, came_from, T(0), spare_);
+    take_blocks(method_, came_from, unknown, spare_method_);
+  }
+
   /// True if node i of block b has a closest point.
   bool found(std::size_t b, std::size_t i) const { return method_[b * Band::volume + i] != unknown; }
   /// Closest point minus position of the node, in spacings.
@@ -76,6 +87,21 @@ class ClosestPoints {
   /// Nodes that the search of a far node may stray from where it starts, tangentially.
   static constexpr std::ptrdiff_t wander = 2;
 
+  template <class Column>
+  static void take_blocks(Column& column, const std::vector<std::ptrdiff_t>& came_from,
+                          typename Column::value_type absent, Column& taken) {
+    taken.clear();
+    taken.reserve(came_from.size() * Band::volume);
+    for (const std::ptrdiff_t from : came_from) {
+      if (from < 0) {
+        taken.insert(taken.end(), Band::volume, absent);
+      } else {
+        const auto first = column.begin() + from * static_cast<std::ptrdiff_t>(Band::volume);
+        taken.insert(taken.end(), first, first + static_cast<std::ptrdiff_t>(Band::volume));
+      }
+    }
+    column.swap(taken);
+  }
   Vec<D, T> offset_at(std::size_t at) const {
     Vec<D, T> result;
     for (int d = 0; d < D; ++d) result[d] = offset_[d][at];
@@ -245,6 +271,8 @@ class ClosestPoints {
   AlignedVector<T> error_;
   AlignedVector<T> slope_;
   std::vector<std::uint8_t> method_;
+  AlignedVector<T> spare_;
+  std::vector<std::uint8_t> spare_method_;
   std::vector<std::size_t> near_;
   std::vector<std::size_t> near_begin_;
   std::vector<std::vector<Jet<T, D>>> near_jets_;  ///< of the nodes in near_, block by block

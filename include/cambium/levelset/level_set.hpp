@@ -50,6 +50,7 @@ class LevelSet {
       : band_(lattice, params.half_width * lattice.spacing()),
         next_(band_),
         marks_(lattice),
+        reach_(lattice, margin),
         reinit_((check_reinitialisation<Reinit>(), params.reinit)),
         wall_distance_(params.wall_distance),
         dense_(lattice, params.half_width * lattice.spacing()) {
@@ -61,7 +62,8 @@ class LevelSet {
   const Lattice<D>& lattice() const { return band_.lattice(); }
   double spacing() const { return band_.spacing(); }
   const Band& band() const { return band_; }
-  /// The reinitialisation with its buffers; that by closest points has the points of the last call.
+  /// The reinitialisation with its buffers. That by closest points has, after reinitialise() or restore_band(), the
+  /// closest points of the nodes of band().
   const Method& method() const { return reinit_; }
 
   /// phi at every node of the lattice, +-half width far from the interface.
@@ -103,6 +105,7 @@ class LevelSet {
     marks_.clear();
     mark(marks_);
     before_.values().clear();
+    before_.values().reserve(marks_.count());
     marks_.for_each([&](const Index<D>& block) { before_.values().activate(block); });
     written_.resize(before_.blocks());
     for_each_piece_by_worker(execution, before_.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
@@ -110,6 +113,7 @@ class LevelSet {
       if (written_[b]) detail::fill_unknown(before_, b);
     });
     next_.values().clear();
+    next_.values().reserve(static_cast<std::size_t>(std::ranges::count(written_, std::uint8_t{1})));
     for (std::size_t b = 0; b < before_.blocks(); ++b) {
       if (!written_[b]) continue;
       const std::size_t to = next_.values().activate(before_.values().block_index(b));
@@ -123,7 +127,7 @@ class LevelSet {
 
  private:
   /// Nodes kept around those of the band.
-  static constexpr std::ptrdiff_t margin = 5;
+  static constexpr double margin = 3.0;
 
   static void require_width(double half_width) {
     if constexpr (requires { Reinit::least_half_width; }) {
@@ -139,23 +143,25 @@ class LevelSet {
     before_ = band_;
     try {
       f();
-      detail::trim(band_, next_, marks_, margin);
+      detail::trim(band_, next_, marks_, reach_, came_from_);
       detail::check_walls(band_, wall_distance_);
     } catch (...) {
       std::swap(band_, before_);
       throw;
     }
+    if constexpr (requires { reinit_.take_blocks(came_from_); }) reinit_.take_blocks(came_from_);
     dense_.take(band_);
   }
   template <class F, class E>
   void sample(F& f, const E& execution) {
     const detail::Sampler<T, D, F> sampler(band_, f);
-    const auto reach = static_cast<std::ptrdiff_t>(std::ceil(band_.half_width() / band_.spacing())) + margin;
-    sampler.mark(marks_, reach, execution);
+    const double width = static_cast<double>(band_.half_width()) / band_.spacing() + margin;
+    sampler.mark(marks_, width, execution);
+    band_.values().reserve(marks_.count());
     marks_.for_each([&](const Index<D>& block) { band_.values().activate(block); });
     // Reinitialisations may rely on values up to the margin beyond the band.
-    const double width = static_cast<double>(reach) * band_.spacing();
-    for_each_piece(execution, band_.blocks(), 1, [&](std::size_t b, std::size_t) { sampler.fill(band_, b, width); });
+    for_each_piece(execution, band_.blocks(), 1,
+                   [&](std::size_t b, std::size_t) { sampler.fill(band_, b, width * band_.spacing()); });
     detail::check_walls(band_, wall_distance_);
     if constexpr (BoundedSlope<F, D>) {
       detail::check_seams(band_, static_cast<double>(F::lipschitz));
@@ -180,9 +186,11 @@ class LevelSet {
   Band next_;
   Band before_ = band_;
   detail::BlockMarks<D> marks_;
+  detail::BlockReach<D> reach_;
   Method reinit_;
   std::ptrdiff_t wall_distance_;
   std::vector<std::uint8_t> written_;
+  std::vector<std::ptrdiff_t> came_from_;
   [[no_unique_address]] std::conditional_t<std::is_same_v<Storage, Dense>, DenseCopy, NoCopy> dense_;
 };
 

@@ -23,7 +23,7 @@ struct ReinitReport {
 ///   ReinitReport method(band, execution)        for NarrowBand<T, D>& band
 ///
 /// What the method may rely on: phi is finite, negative inside, of any scaling near the interface; blocks hold every
-/// node within half_width() of the interface and five nodes more. What it must leave: signed distances below
+/// node within half_width() of the interface and three spacings more. What it must leave: signed distances below
 /// half_width() in the band, exactly +-half_width() at all other nodes of the blocks (padding beyond the lattice
 /// included), the blocks themselves as they were.
 template <class R>

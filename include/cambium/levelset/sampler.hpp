@@ -24,9 +24,9 @@ class Sampler {
 
   Sampler(const Band& band, F& f) : band_(band), f_(f) {}
 
-  /// Marks, for every block that the interface crosses, those within `reach` nodes of it.
+  /// Marks the blocks with nodes within `width` spacings of the interface.
   template <Execution E>
-  void mark(BlockMarks<D>& marks, std::ptrdiff_t reach, const E& execution) const {
+  void mark(BlockMarks<D>& marks, double width, const E& execution) const {
     const Index<D> grid = band_.values().block_grid();
     std::vector<std::uint8_t> crossed(static_cast<std::size_t>(product(grid)));
     Index<D> groups;
@@ -37,12 +37,17 @@ class Sampler {
       for (int d = 0; d < D; ++d) high[d] = std::min(low[d] + group, grid[d]) - 1;
       find_crossed(low, high, crossed);
     });
-    marks.clear();
+    std::vector<Index<D>> blocks;
     for (std::size_t k = 0; k < crossed.size(); ++k) {
-      if (!crossed[k]) continue;
-      const Index<D> origin = unfold(k, grid) * Band::extent;
-      marks.mark(origin - Index<D>::constant(reach), origin + Index<D>::constant(Band::extent + reach));
+      if (crossed[k]) blocks.push_back(unfold(k, grid));
     }
+    // A point of the interface is at most a diagonal away from the first node of a crossed edge of its cell.
+    const BlockReach<D> reach(band_.lattice(), width + std::sqrt(static_cast<double>(D)));
+    std::vector<typename BlockReach<D>::Set> near(blocks.size(), reach.empty_set());
+    for_each_piece(execution, blocks.size(), 1,
+                   [&](std::size_t k, std::size_t) { add_near(blocks[k], reach, near[k]); });
+    marks.clear();
+    for (std::size_t k = 0; k < blocks.size(); ++k) marks.mark(blocks[k], reach, near[k]);
   }
 
   /// Gives the nodes of block b their values; nodes beyond the lattice take that of the node on the face, or of their
@@ -120,6 +125,24 @@ class Sampler {
     halve(low, high, end, begin);
     find_crossed(low, end, crossed);
     find_crossed(begin, high, crossed);
+  }
+  /// Adds what is near the nodes of a block whose next node along an axis is on the other side.
+  void add_near(const Index<D>& block, const BlockReach<D>& reach, typename BlockReach<D>::Set& set) const {
+    const Index<D> edge = Index<D>::constant(Band::extent + 1);
+    std::array<bool, static_cast<std::size_t>(product(Index<D>::constant(Band::extent + 1)))> inside{};
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      inside[k] = static_cast<T>(finite_value(position(block * Band::extent + unfold(k, edge)))) < T(0);
+    }
+    for (std::size_t k = 0; k < inside.size(); ++k) {
+      const Index<D> local = unfold(k, edge);
+      bool own = true, crossed = false;
+      std::size_t pitch = 1;
+      for (int d = 0; d < D; ++d, pitch *= static_cast<std::size_t>(edge[0])) {
+        own &= local[d] < Band::extent;
+        crossed |= own && inside[k] != inside[k + pitch];
+      }
+      if (own && crossed) reach.add(band_.values().offset(local), set);
+    }
   }
   bool in_lattice(const Index<D>& node) const { return band_.lattice().contains(node); }
 
