@@ -39,7 +39,7 @@ Vec<3> velocity(const Vec<3>& x, double t) {
 
 struct Options {
   int steps = 12;
-  int substeps = 4;
+  int substeps = 0;
 };
 
 struct Result {
@@ -107,7 +107,8 @@ int main(int argc, char** argv) {
   CLI::App app("A ball pulled out into a thin sheet and back again");
   app.add_option("--cells", cells, "cells along an axis, one run for each");
   app.add_option("--steps", options.steps, "steps of the level set, an even number")->check(CLI::PositiveNumber);
-  app.add_option("--substeps", options.substeps, "Runge-Kutta steps in each of them")->check(CLI::PositiveNumber);
+  app.add_option("--substeps", options.substeps, "Runge-Kutta steps in each of them; 0 for as many as the paths ask")
+      ->check(CLI::NonNegativeNumber);
   app.add_option("--json", json, "write the figures to this file");
   app.add_option("--fields", folder, "write the surfaces of the last run to this folder, for scripts/draw_enright.py");
   CLI11_PARSE(app, argc, argv);

@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(turning_has_the_order_of_the_kernel, I, Dimensions
 template <template <class, class> class Stepper>
 double error_of_paths(int steps) {
   LevelSet<ClosestPoint, 2> level_set(lattice<2>(128), sphere<2>());
-  Backward<Lambda<6, 4>, Stepper> advection;
+  Backward<Lambda<6, 4>, Stepper> advection({.substeps = 1});
   const double dt = 1.0 / steps;
   const auto flow = [](const Vec<2>& x, double t) { return 0.6 * (1.0 - t * t) * turning<2>(x, t); };
   for (int s = 0; s < steps; ++s) advection.step(level_set, flow, s * dt, dt);
@@ -80,6 +80,32 @@ double error_of_paths(int steps) {
 BOOST_AUTO_TEST_CASE(unsteady_flow_has_the_order_of_the_stepper_in_time) {
   BOOST_TEST(support::observed_order(error_of_paths<RK4>(4), error_of_paths<RK4>(8)) > 3.5);
   BOOST_TEST(support::observed_order(error_of_paths<TVDRK3>(5), error_of_paths<TVDRK3>(10)) > 2.6);
+}
+
+// A quarter of a turn a step: as many substeps as the error asks for, whatever the stepper.
+BOOST_AUTO_TEST_CASE(paths_are_as_exact_as_asked) {
+  const auto error = [](auto advection, double allowed) {
+    LevelSet<ClosestPoint, 2> level_set(lattice<2>(128), sphere<2>());
+    const AdvectionReport report = advection.step(level_set, turning<2>, 0.0, 0.25);
+    Sphere<2> exact = sphere<2>();
+    exact.centre = {0.5, 0.4};
+    const double found = distance_error(level_set.band(), exact, 1.5);
+    BOOST_TEST_MESSAGE(report.substeps << " substeps, error " << found << " spacings");
+    BOOST_TEST(found < 2.0 * allowed);  // an estimate, of what two runs differ by
+    return report.substeps;
+  };
+  const int loose = error(Backward<>({.path_error = 0.1}), 0.1);
+  const int strict = error(Backward<>({.path_error = 1e-4}), 1e-4);
+  // A thousand times the accuracy: by fourth order 5.6 times the substeps, and these are powers of 2.
+  BOOST_TEST(strict >= 4 * loose);
+  BOOST_TEST(strict <= 8 * loose);
+  error(Backward<Lambda<4, 4>, TVDRK2>({.path_error = 0.01}), 0.01);
+}
+
+BOOST_AUTO_TEST_CASE(paths_that_cannot_be_followed_are_an_error) {
+  LevelSet<ClosestPoint, 2> level_set(lattice<2>(32), sphere<2>());
+  const auto jerky = [](const Vec<2>& x, double t) { return Vec<2>{std::sin(1e6 * (x[0] + x[1] + t)), 0.0}; };
+  BOOST_CHECK_THROW(Backward<>().step(level_set, jerky, 0.0, 0.1), ValueError);
 }
 
 // Whole spacings: particles come from nodes, where the kernel interpolates.
@@ -124,7 +150,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_advanced_is_left_as_it_was) {
   BOOST_CHECK_THROW(advection.step(level_set, away, 0.0, 3.0), Error);
   BOOST_CHECK_THROW(advection.step(level_set, nowhere, 0.0, 0.1), Error);
   BOOST_CHECK_THROW(advection.step(level_set, away, 0.0, -1.0), ValueError);
-  BOOST_CHECK_THROW(Backward<>({.substeps = 0}), ValueError);
+  BOOST_CHECK_THROW(Backward<>({.substeps = -1}), ValueError);
+  BOOST_CHECK_THROW(Backward<>({.path_error = 0.0}), ValueError);
   BOOST_TEST(level_set.band()({16, 16}) == before);
 }
 

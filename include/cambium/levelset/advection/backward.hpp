@@ -18,8 +18,10 @@ namespace cambium {
 
 /// Options of Backward.
 struct BackwardParams {
-  /// Steps of the stepper in one step of the level set.
-  int substeps = 1;
+  /// Steps of the stepper in one step of the level set, or 0 for as many as path_error asks.
+  int substeps = 0;
+  /// What the stepper may put a point of the interface off by in a step, in spacings.
+  double path_error = 1e-3;
   /// phi is made a distance again when |grad phi| next to the interface is off by so many octaves, in the mean.
   double octaves = 1.0;
   /// A step that pulls neighbouring points of the interface further apart than so many spacings is cut in two.
@@ -29,6 +31,7 @@ struct BackwardParams {
 /// What a step did.
 struct AdvectionReport {
   std::size_t steps = 0;              ///< interpolations of phi: more than one if the step was cut
+  int substeps = 0;                   ///< steps of the stepper in the last of them
   std::size_t cuts = 0;               ///< parts that were cut because the interface left the band
   std::size_t reinitialisations = 0;  ///< of these, how many were followed by a reinitialisation
   Slopes slopes;                      ///< |grad phi| next to the interface at the end, before a reinitialisation
@@ -47,16 +50,19 @@ class Backward {
 
   /// \throws ValueError for options out of range
   explicit Backward(const Params& params = {}) : params_(params) {
-    if (params.substeps < 1 || !(params.octaves > 0.0) || !(params.longest_stretch > 1.0)) {
-      throw ValueError(detail::message("backward advection with ", params.substeps, " substeps, slopes off by ",
-                                       params.octaves, " octaves and longest stretch ", params.longest_stretch,
-                                       ": they must be at least 1, above 0 and above 1"));
+    if (params.substeps < 0 || !(params.path_error > 0.0) || !(params.octaves > 0.0) ||
+        !(params.longest_stretch > 1.0)) {
+      throw ValueError(detail::message("backward advection with ", params.substeps, " substeps, paths off by ",
+                                       params.path_error, " spacings, slopes by ", params.octaves,
+                                       " octaves and longest stretch ", params.longest_stretch,
+                                       ": they must be 0 or more, above 0, above 0 and above 1"));
     }
   }
 
   /// Advances the interface from t to t + dt with velocity(Vec<D, T> x, double time) -> Vec<D, T>, called by several
   /// threads. \throws PositionError if the interface's surroundings come from outside a bounded box, InterfaceError if
-  /// it reaches its wall or vanishes; the level set is then as after the last part of the step that succeeded
+  /// it reaches its wall or vanishes, ValueError if paths cannot be followed to within Params::path_error; the level
+  /// set is then as after the last part of the step that succeeded
   template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
   AdvectionReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
                        const E& execution = {}) {
@@ -73,6 +79,9 @@ class Backward {
   /// Distance from the interface, in spacings, up to which phi must be right for the stencils of the next step.
   static constexpr double clean = 5.0;
   static constexpr std::size_t most_cuts = 20;
+  static constexpr int most_substeps = 4096;
+  /// Points of the front that are asked how many substeps it takes.
+  static constexpr std::size_t probes = 2048;
 
   template <class T, int D>
   struct Worker {
@@ -94,6 +103,7 @@ class Backward {
     explicit Work(std::size_t workers) : worker(workers) {}
     Front<T, D> front;
     detail::PointBins<T, D> bins;
+    std::array<std::array<AlignedVector<T>, D>, 2> probe;  ///< places that two ways of following points come to
     std::vector<Worker<T, D>> worker;
   };
 
@@ -102,7 +112,10 @@ class Backward {
                AdvectionReport& report) const {
     const Lattice<D>& lattice = level_set.lattice();
     work.front.take(level_set.band(), execution);
-    push(work, velocity, t, dt, execution);
+    const int substeps = params_.substeps > 0 ? params_.substeps : find_substeps(work, velocity, t, dt, execution);
+    report.substeps = substeps;
+    push(work, work.front.positions(), velocity, t, dt, substeps, execution);
+    work.bins.fill(lattice, work.front.positions());
     const double stretch = work.front.stretch(lattice.spacing());
     if (stretch > params_.longest_stretch) {
       return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
@@ -110,7 +123,7 @@ class Backward {
     // A point of the interface is at most half of a stretched diagonal away from a point of the front.
     const double radius = clean + 0.5 * std::sqrt(static_cast<double>(D)) * std::max(stretch, 1.0);
     try {
-      arrive(level_set, velocity, t, dt, radius, execution, work);
+      arrive(level_set, velocity, t, dt, substeps, radius, execution, work);
     } catch (const BandError&) {
       // A part of the interface that no node saw has come apart from the front; shorter steps do not lose it.
       if (++report.cuts > most_cuts) throw;
@@ -133,23 +146,64 @@ class Backward {
     advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
     advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
   }
-  /// Moves the front from t to t + dt.
+  /// Moves points from t to t + dt.
   template <class T, int D, class V, class E>
-  void push(Work<T, D>& work, V&& velocity, double t, double dt, const E& execution) const {
-    const Columns<D, T> x = work.front.positions();
+  static void push(Work<T, D>& work, const Columns<D, T>& x, V&& velocity, double t, double dt, int substeps,
+                   const E& execution) {
     for_each_piece_by_worker(execution, x.size(), group, [&](std::size_t w, std::size_t begin, std::size_t end) {
       Worker<T, D>& worker = work.worker[w];
       for (std::size_t k = 0; k < group; ++k) worker.positions().set(k, x[std::min(begin + k, end - 1)]);
-      follow(worker, velocity, t, dt, 1.0);
+      follow(worker, velocity, t, dt, substeps, 1.0);
       for (std::size_t p = begin; p < end; ++p) x.set(p, worker.positions()[p - begin]);
     });
-    work.bins.fill(work.front.lattice(), x);
+  }
+  /// Substeps are doubled until points of the front come to within Params::path_error of where they belong, as the
+  /// difference between the last two tells.
+  template <class T, int D, class V, class E>
+  int find_substeps(Work<T, D>& work, V&& velocity, double t, double dt, const E& execution) const {
+    constexpr double gain = 1 << S<Columns<D, T>, Serial>::order;  // what a doubling makes the error smaller by
+    const double allowed = params_.path_error * work.front.lattice().spacing();
+    push(work, probe(work, 0), velocity, t, dt, 1, execution);
+    for (int substeps = 1; substeps < most_substeps; substeps *= 2) {
+      const Columns<D, T> x = probe(work, 1);
+      push(work, x, velocity, t, dt, 2 * substeps, execution);
+      double difference = 0.0;
+      for (std::size_t p = 0; p < x.size(); ++p) {
+        for (int d = 0; d < D; ++d) {
+          const double off = std::abs(static_cast<double>(x[p][d] - work.probe[0][d][p]));
+          difference = off <= difference ? difference : off;  // NaN stays
+        }
+      }
+      // Velocities that are not finite are refused where their particles come from.
+      if (!(difference > allowed)) return substeps;
+      if (difference <= (gain - 1.0) * allowed) return 2 * substeps;
+      work.probe[0].swap(work.probe[1]);
+    }
+    throw ValueError(detail::message("paths near the interface are not known to ", params_.path_error,
+                                     " spacings after ", most_substeps,
+                                     " steps of the stepper: the velocity is not smooth; take shorter steps or allow a "
+                                     "larger path_error, or say how many substeps to take"));
+  }
+  /// Takes points of the front, spread over it, as probe number k.
+  template <class T, int D>
+  static Columns<D, T> probe(Work<T, D>& work, std::size_t k) {
+    const Columns<D, T> x = work.front.positions();
+    const std::size_t pitch = std::max<std::size_t>(1, x.size() / probes);
+    const std::size_t count = (x.size() + pitch - 1) / pitch;
+    std::array<T*, D> first;
+    for (int d = 0; d < D; ++d) {
+      work.probe[k][d].resize(count);
+      first[d] = work.probe[k][d].data();
+    }
+    const Columns<D, T> taken(first, count);
+    for (std::size_t p = 0; p < count; ++p) taken.set(p, x[p * pitch]);
+    return taken;
   }
   /// Moves a worker's particles by dt along `way` times the velocity, from time t on: way = -1 goes back in time.
   template <class T, int D, class V>
-  void follow(Worker<T, D>& worker, V&& velocity, double t, double dt, double way) const {
-    const double part = dt / params_.substeps;
-    for (int s = 0; s < params_.substeps; ++s) {
+  static void follow(Worker<T, D>& worker, V&& velocity, double t, double dt, int substeps, double way) {
+    const double part = dt / substeps;
+    for (int s = 0; s < substeps; ++s) {
       worker.stepper.step(worker.positions(), s * part, part, [&](const auto& x, double since, auto&& rate) {
         for (std::size_t p = 0; p < x.size(); ++p) {
           const Vec<D, T> u = velocity(x[p], t + way * since);
@@ -161,7 +215,7 @@ class Backward {
 
   /// phi of the nodes within `radius` of the front that was moved.
   template <class L, class V, class E, class T, int D>
-  void arrive(L& level_set, V&& velocity, double t, double dt, double radius, const E& execution,
+  void arrive(L& level_set, V&& velocity, double t, double dt, int substeps, double radius, const E& execution,
               Work<T, D>& work) const {
     const NarrowBand<T, D>& old = level_set.band();
     const auto reach = static_cast<std::ptrdiff_t>(std::ceil(radius));
@@ -181,7 +235,7 @@ class Backward {
         [&](NarrowBand<T, D>& band, std::size_t b, std::size_t w) {
           Worker<T, D>& worker = work.worker[w];
           if (!find_near(band, b, work.bins, radius, reach, worker)) return false;
-          come_from(band, b, velocity, t + dt, dt, worker);
+          come_from(band, b, velocity, t + dt, dt, substeps, worker);
           bring(old, band, b, worker);
           return true;
         },
@@ -212,8 +266,8 @@ class Backward {
   }
   /// Where the particles that arrive at those nodes at `time` were dt ago, in spacings from the first node.
   template <class T, int D, class V>
-  void come_from(const NarrowBand<T, D>& band, std::size_t b, V&& velocity, double time, double dt,
-                 Worker<T, D>& worker) const {
+  static void come_from(const NarrowBand<T, D>& band, std::size_t b, V&& velocity, double time, double dt, int substeps,
+                        Worker<T, D>& worker) {
     const Lattice<D>& lattice = band.lattice();
     worker.from.resize(worker.node.size());
     for (std::size_t begin = 0; begin < worker.node.size(); begin += group) {
@@ -222,7 +276,7 @@ class Backward {
         const Vec<D> x = lattice.position(band.values().node(b, worker.node[std::min(begin + k, end - 1)]));
         for (int d = 0; d < D; ++d) worker.x[d][k] = static_cast<T>(x[d]);
       }
-      follow(worker, velocity, time, dt, -1.0);
+      follow(worker, velocity, time, dt, substeps, -1.0);
       for (std::size_t p = begin; p < end; ++p) {
         const Vec<D, T> x = worker.positions()[p - begin];
         require_inside(lattice, x);
