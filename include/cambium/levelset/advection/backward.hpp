@@ -8,6 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include <cambium/interpolation/interpolator.hpp>
+#include <cambium/kernels/remeshing_kernel.hpp>
+#include <cambium/levelset/advection/velocity.hpp>
 #include <cambium/levelset/front.hpp>
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/nearest_points.hpp>
@@ -47,6 +50,10 @@ class Backward {
 
   /// \throws ValueError for options out of range
   explicit Backward(const Params& params = {}) : params_(params) {
+    check_remeshing_kernel<K>();
+    static_assert(is_interpolating<K>,
+                  "cambium: backward advection interpolates phi: take a kernel with W(0) = 1 and W(k) = 0 at the other "
+                  "integers, such as Lambda or M4Prime");
     if (params.substeps < 1 || !(params.octaves > 0.0) || !(params.longest_stretch > 1.0)) {
       throw ValueError(detail::message("backward advection with ", params.substeps, " substeps, slopes off by ",
                                        params.octaves, " octaves and longest stretch ", params.longest_stretch,
@@ -60,9 +67,13 @@ class Backward {
   template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
   AdvectionReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
                        const E& execution = {}) {
+    detail::check_velocity<V, T, D>();
     detail::require_step(t, dt);
     AdvectionReport report;
-    Work<T, D> work(static_cast<std::size_t>(execution.count()));
+    auto& work = works_.template get<Work<T, D>>(level_set.lattice());
+    if (work.worker.size() < static_cast<std::size_t>(execution.count())) {
+      work.worker.resize(static_cast<std::size_t>(execution.count()));
+    }
     advance(level_set, velocity, t, dt, execution, work, report);
     return report;
   }
@@ -91,7 +102,8 @@ class Backward {
   };
   template <class T, int D>
   struct Work {
-    explicit Work(std::size_t workers) : worker(workers) {}
+    explicit Work(const Lattice<D>& lattice) : engine{lattice} {}
+    detail::OnLattice<D> engine;
     Front<T, D> front;
     detail::PointBins<T, D> bins;
     std::vector<Worker<T, D>> worker;
@@ -266,6 +278,8 @@ class Backward {
   }
 
   Params params_;
+  /// Buffers serve again as long as the lattice is the same.
+  detail::PlanStore works_;
 };
 
 }  // namespace cambium
