@@ -14,6 +14,7 @@
 #include <cambium/levelset/advection/mover.hpp>
 #include <cambium/levelset/advection/particle_corrected.hpp>
 #include <cambium/levelset/advection/steepest_slope.hpp>
+#include <cambium/levelset/advection/velocity.hpp>
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/band_field.hpp>
 #include <cambium/levelset/block_reach.hpp>

@@ -64,6 +64,11 @@ class BlockMarks {
       marked_[static_cast<std::size_t>(number)] = 1;
     });
   }
+  /// A set for the caller's use, emptied; its memory serves again.
+  typename BlockReach<D>::Set& scratch(const BlockReach<D>& reach) {
+    scratch_.assign(reach.words(), 0);
+    return scratch_;
+  }
   std::size_t count() const { return static_cast<std::size_t>(std::ranges::count(marked_, std::uint8_t{1})); }
   /// Calls f(index of the block) for every marked block in ascending order.
   template <class F>
@@ -92,6 +97,7 @@ class BlockMarks {
   Lattice<D> lattice_;
   Index<D> grid_;
   std::vector<std::uint8_t> marked_;
+  typename BlockReach<D>::Set scratch_;
 };
 
 /// Keeps, of the blocks of a band, those within `reach` of its band nodes, and adds those that are missing.
@@ -100,9 +106,8 @@ template <class T, int D>
 void trim(NarrowBand<T, D>& band, NarrowBand<T, D>& scratch, BlockMarks<D>& marks, const BlockReach<D>& reach,
           std::vector<std::ptrdiff_t>& came_from) {
   marks.clear();
-  auto set = reach.empty_set();
   for (std::size_t b = 0; b < band.blocks(); ++b) {
-    std::ranges::fill(set, 0);
+    auto& set = marks.scratch(reach);
     const auto phi = band.values().block(b);
     for (std::size_t i = 0; i < phi.size(); ++i) {
       if (band.in_band(phi[i]) && band.lattice().contains(band.values().node(b, i))) reach.add(i, set);

@@ -46,6 +46,8 @@ class BlockReach {
     }
   }
 
+  /// Length of a set.
+  std::size_t words() const { return words_; }
   Set empty_set() const { return Set(words_, 0); }
   /// Adds the blocks near node i of a block.
   void add(std::size_t i, Set& set) const {

@@ -34,7 +34,7 @@ class Front {
   template <Execution E>
   void take(const Band& band, const E& execution) {
     patches_.resize(static_cast<std::size_t>(execution.count()));
-    of_block_.resize(band.blocks());
+    if (of_block_.size() < band.blocks()) of_block_.resize(band.blocks());  // what is longer keeps its memory
     for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
       patches_[worker].read_block(band, b, 1);
       take_block(band, patches_[worker], b);

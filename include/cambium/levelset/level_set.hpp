@@ -25,6 +25,8 @@ namespace cambium {
 ///                  date, for what works on the whole lattice
 template <class Reinit = ClosestPoint, int D = 3, class T = double, class Storage = Sparse>
 class LevelSet {
+  static_assert((check_reinitialisation<Reinit>(), true));
+
  public:
   static constexpr int dimension = D;
   using Scalar = T;
@@ -51,7 +53,7 @@ class LevelSet {
         next_(band_),
         marks_(lattice),
         reach_(lattice, margin),
-        reinit_((check_reinitialisation<Reinit>(), params.reinit)),
+        reinit_(params.reinit),
         wall_distance_(params.wall_distance),
         dense_(lattice, params.half_width * lattice.spacing()) {
     require_width(params.half_width);

@@ -85,18 +85,18 @@ class NarrowBand {
           "the level set has no zero crossing: there is no interface; check the shape and the lattice");
     }
     std::fill(far_side_.begin(), far_side_.end(), std::int8_t{0});
-    std::vector<Index<D>> front;
+    front_.clear();
     for (std::size_t b = 0; b < blocks(); ++b) far_side_[entry(values_.block_index(b))] = 1;
     for (std::size_t b = 0; b < blocks(); ++b) {
       for_each_neighbour(values_.block_index(b), [&](const Index<D>& block, int axis, int way) {
-        if (values_.find(block) < 0) claim(block, side_of_face(b, axis, way), front);
+        if (values_.find(block) < 0) claim(block, side_of_face(b, axis, way));
       });
     }
-    while (!front.empty()) {
-      const Index<D> from = front.back();
-      front.pop_back();
+    while (!front_.empty()) {
+      const Index<D> from = front_.back();
+      front_.pop_back();
       for_each_neighbour(from, [&](const Index<D>& block, int, int) {
-        if (values_.find(block) < 0) claim(block, far_side_[entry(from)], front);
+        if (values_.find(block) < 0) claim(block, far_side_[entry(from)]);
       });
     }
   }
@@ -124,11 +124,11 @@ class NarrowBand {
     for (int d = D - 2; d >= 0; --d) n = n * values_.block_grid()[d] + block[d];
     return static_cast<std::size_t>(n);
   }
-  void claim(const Index<D>& block, std::int8_t side, std::vector<Index<D>>& front) {
+  void claim(const Index<D>& block, std::int8_t side) {
     std::int8_t& known = far_side_[entry(block)];
     if (known == 0) {
       known = side;
-      front.push_back(block);
+      front_.push_back(block);
     } else if (known != side) {
       throw BandError(detail::message("the interface runs through block ", block,
                                       " where no values are kept: the band is too thin for the step; take "
@@ -156,6 +156,7 @@ class NarrowBand {
 
   Field<T, D, Sparse> values_;
   std::vector<std::int8_t> far_side_;
+  std::vector<Index<D>> front_;  ///< of find_far_sides()
 };
 
 }  // namespace cambium

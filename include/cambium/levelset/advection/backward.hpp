@@ -8,6 +8,9 @@
 #include <limits>
 #include <vector>
 
+#include <cambium/interpolation/interpolator.hpp>
+#include <cambium/kernels/remeshing_kernel.hpp>
+#include <cambium/levelset/advection/velocity.hpp>
 #include <cambium/levelset/front.hpp>
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/nearest_points.hpp>
@@ -50,6 +53,10 @@ class Backward {
 
   /// \throws ValueError for options out of range
   explicit Backward(const Params& params = {}) : params_(params) {
+    check_remeshing_kernel<K>();
+    static_assert(is_interpolating<K>,
+                  "cambium: backward advection interpolates phi: take a kernel with W(0) = 1 and W(k) = 0 at the other "
+                  "integers, such as Lambda or M4Prime");
     if (params.substeps < 0 || !(params.path_error > 0.0) || !(params.octaves > 0.0) ||
         !(params.longest_stretch > 1.0)) {
       throw ValueError(detail::message("backward advection with ", params.substeps, " substeps, paths off by ",
@@ -66,9 +73,13 @@ class Backward {
   template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
   AdvectionReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
                        const E& execution = {}) {
+    detail::check_velocity<V, T, D>();
     detail::require_step(t, dt);
     AdvectionReport report;
-    Work<T, D> work(static_cast<std::size_t>(execution.count()));
+    auto& work = works_.template get<Work<T, D>>(level_set.lattice());
+    if (work.worker.size() < static_cast<std::size_t>(execution.count())) {
+      work.worker.resize(static_cast<std::size_t>(execution.count()));
+    }
     advance(level_set, velocity, t, dt, execution, work, report);
     return report;
   }
@@ -100,7 +111,8 @@ class Backward {
   };
   template <class T, int D>
   struct Work {
-    explicit Work(std::size_t workers) : worker(workers) {}
+    explicit Work(const Lattice<D>& lattice) : engine{lattice} {}
+    detail::OnLattice<D> engine;
     Front<T, D> front;
     detail::PointBins<T, D> bins;
     std::array<std::array<AlignedVector<T>, D>, 2> probe;  ///< places that two ways of following points come to
@@ -320,6 +332,8 @@ class Backward {
   }
 
   Params params_;
+  /// Buffers serve again as long as the lattice is the same.
+  detail::PlanStore works_;
 };
 
 }  // namespace cambium

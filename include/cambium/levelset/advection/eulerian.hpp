@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <cambium/levelset/advection/velocity.hpp>
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/reinit/band_work.hpp>
 #include <cambium/levelset/weno.hpp>
@@ -54,6 +55,7 @@ class Eulerian {
   /// the interface vanishes or leaves the band; the level set is then as it was
   template <class Reinit, int D, class T, class V, Execution E = OpenMP>
   EulerianReport step(LevelSet<Reinit, D, T>& level_set, V&& velocity, double t, double dt, const E& execution = {}) {
+    detail::check_velocity<V, T, D>();
     detail::require_step(t, dt);
     require_width(level_set.band());
     const NarrowBand<T, D> start = level_set.band();

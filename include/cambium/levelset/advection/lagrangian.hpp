@@ -14,6 +14,7 @@
 #include <cambium/levelset/advection/cutoff.hpp>
 #include <cambium/levelset/advection/mover.hpp>
 #include <cambium/levelset/advection/steepest_slope.hpp>
+#include <cambium/levelset/advection/velocity.hpp>
 #include <cambium/levelset/front.hpp>
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/time/rk4.hpp>
@@ -85,6 +86,7 @@ class Lagrangian {
   template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
   LagrangianReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
                         const E& execution = {}) {
+    detail::check_velocity<V, T, D>();
     detail::require_step(t, dt);
     auto& work = works_.template get<Work<T, D>>(level_set.lattice());
     LagrangianReport report;

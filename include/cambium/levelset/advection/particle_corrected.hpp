@@ -13,6 +13,7 @@
 #include <cambium/levelset/advection/lagrangian.hpp>
 #include <cambium/levelset/advection/markers.hpp>
 #include <cambium/levelset/advection/mover.hpp>
+#include <cambium/levelset/advection/velocity.hpp>
 
 namespace cambium {
 
@@ -73,6 +74,7 @@ class ParticleCorrected {
   template <class Reinit, int D, class T, class Storage, class V, Execution E = OpenMP>
   ParticleCorrectedReport step(LevelSet<Reinit, D, T, Storage>& level_set, V&& velocity, double t, double dt,
                                const E& execution = {}) {
+    detail::check_velocity<V, T, D>();
     detail::require_step(t, dt);
     auto& work = works_.template get<Work<T, D>>(level_set.lattice());
     if (!work.seeded) seed(level_set.band(), work, execution);

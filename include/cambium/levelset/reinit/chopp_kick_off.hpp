@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -178,7 +179,7 @@ struct ChoppKickOff {
         } else {
           y = x + offset;
           ++counts.estimated;
-          if (!crossed) return std::numeric_limits<T>::quiet_NaN();
+          if (!crossed) return std::copysign(std::numeric_limits<T>::quiet_NaN(), patch[at] < T(0) ? T(-1) : T(1));
         }
       }
       ++counts.nodes;
