@@ -111,7 +111,7 @@ struct Options {
   int turns = 10;
   int steps_of_disk = 5;
   int steps_of_vortex = 12;
-  int substeps = 8;
+  int substeps = 10;
 };
 
 /// A way to advance a level set, with its reinitialisation.
