@@ -99,3 +99,26 @@ BOOST_AUTO_TEST_CASE(the_queue_is_sorted_by_key_then_number) {
   expected.insert(late + 1, {0.0, 1001});
   BOOST_TEST((found == expected));
 }
+
+// Values so rough that closest points of corners are not found: such nodes are marched to, on their own side.
+BOOST_AUTO_TEST_CASE_TEMPLATE(rough_values_keep_their_signs, Case, marching::Dimensions) {
+  constexpr int D = Case::value;
+  const auto lattice = Lattice<D>::bounded_box(Box<D>::cube(), D == 2 ? 64 : 32);
+  const double h = lattice.spacing();
+  const auto distance = [](const Vec<D>& x) { return norm(x - Vec<D>::constant(0.5)) - 0.3; };
+  const auto rough = [&](const Vec<D>& x) {
+    double phase = 0.0;
+    for (int d = 0; d < D; ++d) phase += (37.0 + 23.0 * d) * x[d] / h;
+    return distance(x) + 3.0 * h * std::sin(phase * phase);
+  };
+  auto band = support::make_band<double, D>(lattice, 6.0 * h, distance, rough);
+  const auto before = band;
+  const ReinitReport report = marching::reinitialise<FastMarching<>>(band);
+  BOOST_TEST(report.not_converged > 0U);
+  for (std::size_t b = 0; b < band.blocks(); ++b) {
+    for (std::size_t i = 0; i < band.volume; ++i) {
+      if (!lattice.contains(band.values().node(b, i))) continue;
+      BOOST_REQUIRE((band.values().block(b)[i] < 0.0) == (before.values().block(b)[i] < 0.0));
+    }
+  }
+}

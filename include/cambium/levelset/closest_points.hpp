@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -70,7 +71,7 @@ class ClosestPoints {
   bool found(std::size_t b, std::size_t i) const { return method_[b * Band::volume + i] != unknown; }
   /// Closest point minus position of the node, in spacings.
   Vec<D, T> offset(std::size_t b, std::size_t i) const { return offset_at(b * Band::volume + i); }
-  /// What the closest point may be off by, in spacings: the difference between two kernels.
+  /// What the closest point may be off by, in spacings: the difference between kernels.
   T error(std::size_t b, std::size_t i) const { return error_[b * Band::volume + i]; }
   /// |grad phi| at the closest point.
   T slope(std::size_t b, std::size_t i) const { return slope_[b * Band::volume + i]; }
@@ -102,6 +103,16 @@ class ClosestPoints {
     }
     column.swap(taken);
   }
+  /// There is a kink if K and the finer kernel differ by so many spacings at least, and by that share of how far the
+  /// linear interpolant is: next to kinks it is seldom less than 0.04, on smooth shapes it falls with the cube of the
+  /// spacing. For kernels of low order this tells nothing.
+  static constexpr T resolved = T(5e-4);
+  static constexpr T smooth = T(0.02);
+  static constexpr int high_order = 4;
+  /// Those who ask grant twice the error, so that half of the distance to the linear interpolant's zero set would do
+  /// for planes; the rest is for corners.
+  static constexpr T share_of_linear = T(0.7);
+
   Vec<D, T> offset_at(std::size_t at) const {
     Vec<D, T> result;
     for (int d = 0; d < D; ++d) result[d] = offset_[d][at];
@@ -144,7 +155,7 @@ class ClosestPoints {
     const std::size_t to = b * Band::volume + i;
     Jet<T, D> jet;
     method_[to] = search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), nullptr, &jet);
-    error_[to] = method_[to] == not_searched ? T(0.5) : difference(patch, y, jet);
+    error_[to] = method_[to] == not_searched ? T(0.5) : uncertainty(patch, y, jet);
     set_offset(to, y - x);
     slope_[to] = norm(jet.gradient) / static_cast<T>(band.spacing());
     near_jets_[b].push_back(jet);
@@ -186,11 +197,21 @@ class ClosestPoints {
       return not_searched;
     }
   }
+  /// What the zero set of K may be off by near y, in spacings: how far that of the finer kernel is. With a kink within
+  /// their stencils both overshoot, sometimes alike, so that the linear interpolant, which does not, has a say: without
+  /// it slabs up to four spacings thick moved at every reinitialisation.
+  static T uncertainty(const Patch<T, D>& patch, const Vec<D, T>& y, const Jet<T, D>& jet) {
+    const T error = difference<Finer>(patch, y, jet);
+    if (K::moments < high_order || error < resolved) return error;
+    const T of_linear = difference<Hat>(patch, y, jet);
+    return error < smooth * of_linear ? error : std::max(error, share_of_linear * of_linear);
+  }
   /// Distance between the zero sets of two kernels near y, in spacings: their values and, since these may agree by
   /// chance, half of a spacing times their gradients.
+  template <class Other>
   static T difference(const Patch<T, D>& patch, const Vec<D, T>& y, const Jet<T, D>& jet) {
-    const Jet<T, D> finer = Interpolant<Finer, T, D>::jet(patch.data(), patch.stride(), y);
-    return (std::abs(finer.value) + T(0.5) * norm(finer.gradient - jet.gradient)) / norm(jet.gradient);
+    const Jet<T, D> other = Interpolant<Other, T, D>::jet(patch.data(), patch.stride(), y);
+    return (std::abs(other.value) + T(0.5) * norm(other.gradient - jet.gradient)) / norm(jet.gradient);
   }
 
   /// Numbers of the nodes that search_near() found points for, block by block.

@@ -143,8 +143,11 @@ struct ChoppKickOff {
         if (!crossed.template find<detail::Beside::cell>(band, signs_, b)) return;
         Patch<T, D>& patch = patches_[worker];
         patch.read_block(band, b, halo);
-        crossed.for_each(
-            [&](std::size_t i) { distance[b * NarrowBand<T, D>::volume + i] = find(patch, i, counts_[b]); });
+        crossed.for_each([&](std::size_t i) {
+          const T found = find(patch, i, counts_[b]);
+          // What is not found stays as it is: the NaN there knows the side of the node.
+          if (!std::isnan(found)) distance[b * NarrowBand<T, D>::volume + i] = found;
+        });
       });
       KickOffCounts total;
       for (const KickOffCounts& counts : counts_) {
