@@ -48,8 +48,8 @@ int main(int argc, char** argv) {
 
   bench::Rows advection = bench::Rows::array();
   bench::Rows reinitialisation = bench::Rows::array();
-  bench::run_advections(options, advection);
   bench::run_reinitialisations(options, reinitialisation);
+  bench::run_advections(options, advection);
   if (!json.empty()) {
     const nlohmann::json all{
         {"compiler", __VERSION__}, {"advection", advection}, {"reinitialisation", reinitialisation}};

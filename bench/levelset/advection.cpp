@@ -66,15 +66,15 @@ void openvdb(std::ptrdiff_t cells, const Options& options, Rows& rows) {
 
 void run_advections(const Options& options, Rows& rows) {
   for (const std::ptrdiff_t cells : options.advection_cells) {
-    eulerian(cells, options, rows);
-    for (const int steps : {12, 24}) particle_corrected(cells, steps, options, rows);
-    for (const int steps : {24, 48}) lagrangian(cells, steps, options, rows);
-  }
-  for (const std::ptrdiff_t cells : options.advection_cells) {
 #if WITH_OPENVDB
     openvdb(cells, options, rows);
 #endif
     for (const int steps : {12, 24, 48}) backward(cells, steps, options, rows);
+  }
+  for (const std::ptrdiff_t cells : options.advection_cells) {
+    eulerian(cells, options, rows);
+    particle_corrected(cells, 24, options, rows);
+    lagrangian(cells, 24, options, rows);
   }
 }
 

@@ -12,7 +12,7 @@ namespace bench {
 struct Options {
   std::vector<std::ptrdiff_t> advection_cells{64, 128};
   std::vector<std::ptrdiff_t> cells_2d{64, 128, 256, 512};
-  std::vector<std::ptrdiff_t> cells_3d{32, 64, 128};
+  std::vector<std::ptrdiff_t> cells_3d{32, 64, 96};
   /// Only methods whose names contain this.
   std::string only;
   /// Folder of the fields that write_fields() left there, and of what scripts/run_scikit_fmm.py made of them.
