@@ -55,6 +55,11 @@ def draw_advection(rows):
                 panel.loglog([row["seconds"] for row in line], errors, "-", marker=marker, color=colour, markersize=7,
                              markerfacecolor=colour if size == sizes[-1] else "white", linewidth=1.3)
                 for row, error in zip(line, errors):
+                    finer = [other for other in rows if other["method"] == row["method"] and key in other and
+                             other["cells"] > size]
+                    if finer:
+                        panel.loglog([row["seconds"], finer[0]["seconds"]], [error, scale * abs(finer[0][key])], ":",
+                                     color=colour, linewidth=0.8)
                     if family != "OpenVDB":
                         panel.annotate(str(row["steps"] if family != "Eulerian" else row["work"]),
                                        (row["seconds"], error), xytext=(4, 4), textcoords="offset points", fontsize=7,
@@ -68,6 +73,7 @@ def draw_advection(rows):
     handles += [Line2D([], [], color="#555555", marker=marker, linestyle="", label=f"{size}³ cells",
                        markerfacecolor="#555555" if size == sizes[-1] else "white")
                 for size, marker in zip(sizes, CELLS_MARKERS)]
+    handles.append(Line2D([], [], color="#555555", linestyle=":", linewidth=0.8, label="same steps, finer"))
     handles.append(Line2D([], [], linestyle="", label="numbers: steps"))
     figure.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.55), frameon=False, fontsize=9)
     figure.tight_layout()
@@ -129,13 +135,16 @@ def draw_reinitialisation(lines, what, name, heading):
     for family in REINITIALISATION:
         of_family = [key for key in lines if key[0] == family]
         if of_family:
-            handles.append(Line2D([], [], linestyle="", label=f"$\\bf{{{family.replace(' ', '~')}}}$"))
+            handles.append(Line2D([], [], linestyle="", label=family))
         handles += [Line2D([], [], color=look[key][0], marker=look[key][1], linewidth=1.0,
                            label=key[1] + (f"; {best_geometry(lines[key])}" if what == "curvature" else ""))
                     for key in of_family]
     sizes = sorted({row["cells"] for line in lines.values() for row in line})
     handles.append(Line2D([], [], linestyle="", label=f"down a line: {', '.join(map(str, sizes))} cells"))
-    figure.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+    legend = figure.legend(handles=handles, loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=8)
+    for text in legend.get_texts():
+        if text.get_text() in REINITIALISATION:
+            text.set_weight("bold")
     figure.tight_layout()
     bench_report.save(figure, name)
     plt.close(figure)
