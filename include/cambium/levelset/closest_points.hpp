@@ -88,6 +88,16 @@ class ClosestPoints {
   /// Nodes that the search of a far node may stray from where it starts, tangentially.
   static constexpr std::ptrdiff_t wander = 2;
 
+  /// There is a kink if K and the finer kernel differ by so many spacings at least, and by that share of how far the
+  /// linear interpolant is: next to kinks it is seldom less than 0.04, on smooth shapes it falls with the cube of the
+  /// spacing. For kernels of low order this tells nothing.
+  static constexpr T resolved = T(5e-4);
+  static constexpr T smooth = T(0.02);
+  static constexpr int high_order = 4;
+  /// Those who ask grant twice the error, so that half of the distance to the linear interpolant's zero set would do
+  /// for planes; the rest is for corners.
+  static constexpr T share_of_linear = T(0.7);
+
   template <class Column>
   static void take_blocks(Column& column, const std::vector<std::ptrdiff_t>& came_from,
                           typename Column::value_type absent, Column& taken) {
@@ -103,16 +113,6 @@ class ClosestPoints {
     }
     column.swap(taken);
   }
-  /// There is a kink if K and the finer kernel differ by so many spacings at least, and by that share of how far the
-  /// linear interpolant is: next to kinks it is seldom less than 0.04, on smooth shapes it falls with the cube of the
-  /// spacing. For kernels of low order this tells nothing.
-  static constexpr T resolved = T(5e-4);
-  static constexpr T smooth = T(0.02);
-  static constexpr int high_order = 4;
-  /// Those who ask grant twice the error, so that half of the distance to the linear interpolant's zero set would do
-  /// for planes; the rest is for corners.
-  static constexpr T share_of_linear = T(0.7);
-
   Vec<D, T> offset_at(std::size_t at) const {
     Vec<D, T> result;
     for (int d = 0; d < D; ++d) result[d] = offset_[d][at];
