@@ -71,6 +71,8 @@ struct BasicClosestPoint {
       if (distance > static_cast<T>(params_.known) && points_.error(b, i) < static_cast<T>(params_.resolved)) {
         value = distance * static_cast<T>(band.spacing()) * points_.slope(b, i);
       }
+      // Where phi is so steep that it leaves the band next to the interface, it is made a distance.
+      if (!(value < band.half_width())) value = distance * static_cast<T>(band.spacing());
       return value < band.half_width() ? std::copysign(value, phi) : far;
     }
     T distance(const NarrowBand<T, D>& band, std::size_t b, std::size_t i, T phi) const {
