@@ -167,18 +167,15 @@ State state_or_error(double since, F&& f) {
   }
 }
 
-/// A level set made from the shape at one time after the other, and reinitialised once more.
+/// A level set made from the shape at one time after the other, `step` spacings apart.
 template <class R, class Scene, int D>
-std::vector<State> sampled(const typename R::Params& reinit = {}) {
+std::vector<State> sampled(double step, const typename R::Params& reinit = {}) {
   std::vector<State> states;
   typename LevelSet<R, D>::Params params;
   params.reinit = reinit;
-  for (double t = 0.0; t < Scene::end; t += (D == 2 ? 0.25 : 0.5) * h) {
-    states.push_back(state_or_error((t - Scene::event) / h, [&] {
-      LevelSet<R, D> level_set(lattice<D>(), Scene{t}, params);
-      level_set.reinitialise();
-      return look_at(level_set, Scene{t});
-    }));
+  for (double t = 0.0; t < Scene::end + 0.1 * h; t += step * h) {
+    states.push_back(state_or_error((t - Scene::event) / h,
+                                    [&] { return look_at(LevelSet<R, D>(lattice<D>(), Scene{t}, params), Scene{t}); }));
   }
   return states;
 }
@@ -230,12 +227,13 @@ Summary check(const std::string& name, const std::vector<State>& states) {
   return worst;
 }
 
-/// check() for a reinitialisation and both scenes. \return the worst of both
+/// check() for a reinitialisation and both scenes. \param step  3D, in spacings. \return the worst of both
 template <class R, int D>
-Summary check_sampled(const std::string& name, const typename R::Params& reinit = {}) {
+Summary check_sampled(const std::string& name, const typename R::Params& reinit = {}, double step = 0.5) {
+  step = D == 2 ? 0.25 : step;
   const std::string where = name + " " + std::to_string(D) + "D ";
-  const Summary a = check<Merging<D>>(where + "merging", sampled<R, Merging<D>, D>(reinit));
-  const Summary b = check<Pinching<D>>(where + "pinching", sampled<R, Pinching<D>, D>(reinit));
+  const Summary a = check<Merging<D>>(where + "merging", sampled<R, Merging<D>, D>(step, reinit));
+  const Summary b = check<Pinching<D>>(where + "pinching", sampled<R, Pinching<D>, D>(step, reinit));
   return {a.errors + b.errors, a.wrong_counts + b.wrong_counts, std::max(a.volume, b.volume),
           std::max(a.distance, b.distance)};
 }

@@ -9,15 +9,15 @@ using namespace topology;
 
 BOOST_AUTO_TEST_CASE_TEMPLATE(pde, Dim, Dimensions) {
   constexpr int D = Dim::value;
-  // Without a subcell fix the neck of the dumbbell is lost when it is still 1.5 spacings thick, and 4% of the volume.
-  const Summary plain = check_sampled<PdeReinit<>, D>("PdeReinit");
+  // Measured: volume 2.0%, and 0.6% with a subcell fix.
+  const Summary plain = check_sampled<PdeReinit<>, D>("PdeReinit", {}, 1.5);
   BOOST_TEST(plain.errors == 0U);
-  BOOST_TEST(plain.volume < 0.06);
+  BOOST_TEST(plain.volume < 0.04);
   for (const SubcellFix fix : {SubcellFix::russo_smereka, SubcellFix::high_order}) {
-    const Summary fixed = check_sampled<PdeReinit<>, D>("PdeReinit, fixed", {.subcell_fix = fix});
+    const Summary fixed = check_sampled<PdeReinit<>, D>("PdeReinit, fixed", {.subcell_fix = fix}, 1.5);
     BOOST_TEST(fixed.errors == 0U);
     BOOST_TEST(fixed.wrong_counts == 0U);
-    BOOST_TEST(fixed.volume < 0.03);
+    BOOST_TEST(fixed.volume < 0.015);
   }
 }
 
@@ -26,17 +26,4 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(gradient_normalised, Dim, Dimensions) {
   BOOST_TEST(worst.errors == 0U);
   BOOST_TEST(worst.wrong_counts == 0U);
   BOOST_TEST(worst.volume < 0.03);
-}
-
-// Velocities are not smooth at the ridge between the two lobes: values from across it grow at the edge of the band,
-// until the change of sign is found next to the wall of the box.
-BOOST_AUTO_TEST_CASE_TEMPLATE(lagrangian, Dim, Dimensions) {
-  const Summary worst = check_sampled<LagrangianReinit<>, Dim::value>("LagrangianReinit");
-  BOOST_TEST(worst.errors > 0U);
-}
-
-BOOST_AUTO_TEST_CASE_TEMPLATE(upwind_lagrangian, Dim, Dimensions) {
-  const Summary worst = check_sampled<UpwindLagrangianReinit<>, Dim::value>("UpwindLagrangianReinit");
-  BOOST_TEST(worst.errors == 0U);
-  BOOST_TEST(worst.volume < 0.09);
 }

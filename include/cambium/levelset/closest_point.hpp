@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <cambium/levelset/closest_points.hpp>
+#include <cambium/levelset/reinit/band_work.hpp>
 #include <cambium/levelset/reinitialisation.hpp>
 
 namespace cambium {
@@ -36,8 +37,10 @@ struct BasicClosestPoint {
     explicit Method(const Params& params) : params_(params) {}
 
     /// phi := signed distance at every node of the blocks within the half width, +-half width at the others.
+    /// \throws ValueError if phi is not finite; phi is then unchanged
     template <Execution E>
     ReinitReport operator()(NarrowBand<T, D>& band, const E& execution) {
+      detail::require_finite(band, execution);
       points_.find(band, static_cast<double>(band.half_width()), execution);
       for_each_piece(execution, band.blocks(), 1, [&](std::size_t b, std::size_t) {
         const auto phi = band.values().block(b);

@@ -122,6 +122,7 @@ class LevelSet {
       std::ranges::copy(before_.values().block(b), next_.values().block(to).begin());
     }
     next_.find_far_sides();
+    require_crossing(next_);
     detail::check_walls(next_, wall_distance_);
     std::swap(band_, next_);
     dense_.take(band_);
@@ -138,6 +139,14 @@ class LevelSet {
                                          "reinitialisation need ", Reinit::least_half_width, ": choose a wider band"));
       }
     }
+  }
+  static void require_crossing(const Band& band) {
+    bool negative = false, positive = false;
+    for (std::size_t b = 0; b < band.blocks() && !(negative && positive); ++b) {
+      for (const T phi : band.values().block(b)) (phi < T(0) ? negative : positive) = true;
+    }
+    if (negative && positive) return;
+    throw InterfaceError("the level set has no zero crossing any more: the interface has vanished; stop before");
   }
   /// Calls f, which changes values; then keeps the blocks that are needed. All is as before if that throws.
   template <class F>
