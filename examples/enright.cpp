@@ -47,6 +47,7 @@ struct Result {
   double volume_half = 0.0;  ///< relative error at T / 2
   double volume_end = 0.0;   ///< and at T
   double distance = 0.0;     ///< symmetric difference over area, in spacings, at T
+  std::size_t parts = 0;     ///< of the inside at T: 1, and what came off where the sheet was below the lattice
   double seconds = 0.0;
   std::size_t interpolations = 0;
   std::size_t reinitialisations = 0;
@@ -92,7 +93,9 @@ Result run(std::ptrdiff_t cells, const Options& options, const std::string& fold
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!folder.empty()) write_surface(level_set.band(), folder + "/end");
   result.volume_half = half / start.volume - 1.0;
-  result.volume_end = measures(level_set.band()).volume / start.volume - 1.0;
+  const Measures<3> end = measures(level_set.band());
+  result.volume_end = end.volume / start.volume - 1.0;
+  result.parts = end.inside_components;
   result.distance = symmetric_difference(level_set.band(), ball) / start.area / level_set.spacing();
   return result;
 }
@@ -115,17 +118,19 @@ int main(int argc, char** argv) {
 
   nlohmann::json runs = nlohmann::json::array();
   bool good = true;
-  std::printf("%5s %16s %16s %12s %10s\n", "cells", "volume at T/2", "volume at T", "L1 at T, h", "seconds");
+  std::printf("%5s %16s %16s %12s %6s %10s\n", "cells", "volume at T/2", "volume at T", "L1 at T, h", "parts",
+              "seconds");
   for (const auto n : cells) {
     const std::string to = n == cells.back() ? folder : "";
     if (!to.empty()) std::filesystem::create_directories(to);
     const Result r = run(n, options, to);
-    std::printf("%5td %15.3f%% %15.3f%% %12.3f %10.2f\n", n, 100.0 * r.volume_half, 100.0 * r.volume_end, r.distance,
-                r.seconds);
+    std::printf("%5td %15.3f%% %15.3f%% %12.3f %6zu %10.2f\n", n, 100.0 * r.volume_half, 100.0 * r.volume_end,
+                r.distance, r.parts, r.seconds);
     runs.push_back({{"cells", n},
                     {"volume_half", r.volume_half},
                     {"volume_end", r.volume_end},
                     {"distance", r.distance},
+                    {"parts", r.parts},
                     {"seconds", r.seconds},
                     {"interpolations", r.interpolations},
                     {"reinitialisations", r.reinitialisations}});
