@@ -3,6 +3,7 @@
 #pragma once
 
 /// \dir interface  Conditions on an interface for elliptic problems: jumps, forces spread from it.
+#include <cambium/interface/immersed_boundary.hpp>
 #include <cambium/interface/jump.hpp>
 #include <cambium/interface/jump_data.hpp>
 #include <cambium/interface/jump_geometry.hpp>
