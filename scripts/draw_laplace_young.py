@@ -35,7 +35,7 @@ def main(folder, table, picture):
     x = np.arange(cells) / cells
     for field, colour, name in ((jump, "tab:blue", "jump"), (spread, "tab:red", "immersed boundary")):
         axes[0, 0].plot(x, (field - field[0, 0])[cells // 2], ".-", color=colour, label=name)
-    axes[0, 0].set(title="pressure through the middle", xlabel="x", ylabel="p R / gamma = 4 inside")
+    axes[0, 0].set(title="pressure through the middle", xlabel="x", ylabel="p, gamma / R = 4")
     axes[0, 0].grid(True, alpha=0.3)
     axes[0, 0].legend()
     show_field(axes[0, 1], speed, "spurious velocity of the immersed boundary", cmap="magma")

@@ -66,7 +66,9 @@ class JumpLegs {
     Patch<T, D> patch;
     for (std::size_t b = 0; b < band.blocks(); ++b) {
       patch.read_block(band, b, longest);
-      for (std::size_t i = 0; i < band.volume; ++i) add_node(band, patch, b, i);
+      if (crossed(patch)) {
+        for (std::size_t i = 0; i < band.volume; ++i) add_node(band, patch, b, i);
+      }
       for (std::size_t k = begin_.back(); k < legs_.size(); ++k) {
         require_known(band, legs_[k], known);
         examine(band, geometry, legs_[k], unresolved);
@@ -87,6 +89,13 @@ class JumpLegs {
  private:
   static constexpr std::ptrdiff_t longest = 2;
 
+  template <class T>
+  static bool crossed(const Patch<T, D>& patch) {
+    const std::ptrdiff_t size = product(patch.edge());
+    std::ptrdiff_t inside = 0;
+    for (std::ptrdiff_t at = 0; at < size; ++at) inside += patch[at] < T(0);
+    return inside > 0 && inside < size;
+  }
   template <class T>
   void add_node(const NarrowBand<T, D>& band, const Patch<T, D>& patch, std::size_t b, std::size_t i) {
     const std::ptrdiff_t at = patch.entry(i);
