@@ -1,4 +1,4 @@
-// expect: cambium: a jump rule has on_leg(here, far, distance_here, distance_far)
+// expect: cambium: a jump rule has on_leg\(here, far, distance_here, distance_far\)
 // SPDX-FileCopyrightText: The Cambium authors
 // SPDX-License-Identifier: BSD-3-Clause
 
