@@ -157,7 +157,7 @@ class BasicJump {
   /// \tparam G  interpolating kernel; its order of the gradient, K::moments, should be 2 at least
   /// \throws as correct(), ValueError if the stencils of G reach further than Params::reach
   template <class G = M4Prime, Execution E = OpenMP>
-  void at_interface(const Field<T, D>& p, InterfaceSides<D, T>& sides, const E& execution = {}) const {
+  void at_interface(const Field<T, D>& p, InterfaceSides<D, T>& sides, const E& execution = {}) {
     require(p);
     if (geometry_.reach() < reach_of<G>() * (1.0 - 1e-12)) {
       throw ValueError(detail::message("the jump is known up to ", geometry_.reach(),
@@ -170,9 +170,9 @@ class BasicJump {
     take_blocks(sides.gradient_inside, band);
     take_blocks(sides.gradient_outside, band);
     const detail::SmoothedJump<D, T> smooth{p, extension_, band};
-    std::vector<detail::JumpPatch<T, D>> patches(static_cast<std::size_t>(execution.count()));
+    smooth_patches_.resize(static_cast<std::size_t>(execution.count()));
     for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-      auto& patch = patches[worker];
+      auto& patch = smooth_patches_[worker];
       geometry_.template for_each_near<G>(
           b, smooth, patch,
           [&](std::size_t i, const Vec<D, T>& u) {
@@ -268,6 +268,7 @@ class BasicJump {
   Field<T, D, Sparse> extension_;
   Field<Vec<D, T>, D, Sparse> gradient_;
   std::vector<FieldPatch<T, D>> patches_;
+  std::vector<detail::JumpPatch<T, D>> smooth_patches_;
   bool attached_ = false;
   bool ready_ = false;
 };

@@ -40,7 +40,8 @@ class JumpGeometry {
       points_.find(band_, static_cast<double>(band_.half_width()), execution);
     }
     find_geometry(execution);
-    legs_.find(band_, geometry_, unresolved, [&](std::size_t b, std::size_t i) { return near(b, i); });
+    const auto known = [&](std::size_t b, std::size_t i) { return near(b, i); };
+    legs_.find(band_, geometry_, unresolved, known, patches_.front());
     if (legs_.size() == 0) throw InterfaceError("the band has no zero crossing: there is no interface to jump across");
   }
 

@@ -57,13 +57,13 @@ class JumpLegs {
   static constexpr double least_cosine = 0.5;
 
   /// \param known  known(b, i): node i of block b has a closest point
+  /// \param patch  buffer
   template <class T, class Known>
-  void find(const NarrowBand<T, D>& band, const BandGeometry<T, D>& geometry, UnresolvedLegs unresolved,
-            Known&& known) {
+  void find(const NarrowBand<T, D>& band, const BandGeometry<T, D>& geometry, UnresolvedLegs unresolved, Known&& known,
+            Patch<T, D>& patch) {
     legs_.clear();
     begin_.assign(1, 0);
     unresolved_ = 0;
-    Patch<T, D> patch;
     for (std::size_t b = 0; b < band.blocks(); ++b) {
       patch.read_block(band, b, longest);
       if (crossed(patch)) {
