@@ -5,6 +5,7 @@
 /// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>: only its users compile Eigen. Programs
 /// link with FFTW.
 #include <cambium/core.hpp>
+#include <cambium/interface.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
