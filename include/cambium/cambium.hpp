@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp> and
-/// <cambium/multigrid/krylov.hpp>: only their users compile Eigen. Programs link with FFTW.
+/// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp>,
+/// <cambium/multigrid/krylov.hpp> and <cambium/interface/dirichlet.hpp>: only their users compile Eigen. Programs link
+/// with FFTW.
 #include <cambium/core.hpp>
+#include <cambium/interface.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
