@@ -166,8 +166,7 @@ class Continuation {
     }
     const auto entry = [&](const Index<D>& node) { return domain.grid.at(node); };
     std::ranges::sort(missing_, {}, entry);
-    const auto repeated = std::ranges::unique(missing_, {}, entry);
-    missing_.erase(repeated.begin(), repeated.end());
+    missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
   }
   /// Mean over the lines with most values. \return false if there is none
   bool extrapolate(const CutDomain<D>& domain, const double* x, const Index<D>& node) {

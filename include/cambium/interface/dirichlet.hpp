@@ -43,8 +43,8 @@ class Dirichlet {
     std::array<Wall, D> walls{};  ///< of bounded axes, where the domain reaches them
     double tolerance = 1e-9;      ///< of the residual, relative to the right-hand side
     int most_iterations = 60;
-    int before = 1;  ///< smoothings before the coarser level
-    int after = 1;   ///< and after it
+    int before = 2;  ///< smoothings before the coarser level
+    int after = 2;   ///< and after it
     S smoother = {};
   };
 
@@ -326,7 +326,11 @@ class Dirichlet {
     const auto& domain = domains_.front();
     Vec<D> gradient;
     Index<D> first;
-    for (int d = 0; d < D; ++d) first[d] = static_cast<std::ptrdiff_t>(std::floor(place[d]));
+    bool inner = true;
+    for (int d = 0; d < D; ++d) {
+      first[d] = static_cast<std::ptrdiff_t>(std::floor(place[d]));
+      inner = inner && first[d] >= 1 && first[d] + 2 < lattice_.nodes()[d];
+    }
     for (int corner = 0; corner < 1 << D; ++corner) {
       Index<D> node = first;
       double weight = 1.0;
@@ -337,21 +341,22 @@ class Dirichlet {
         weight *= upper ? part : 1.0 - part;
       }
       if (weight == 0.0) continue;
+      const std::size_t at = domain.grid.at(node);
       for (std::size_t d = 0; d < D; ++d) {
-        const double difference = value_at(domain.neighbour(node, 2 * d + 1)) - value_at(domain.neighbour(node, 2 * d));
-        gradient[static_cast<int>(d)] += weight * difference / (2.0 * lattice_.spacing());
+        const auto step = static_cast<std::size_t>(domain.grid.stride[static_cast<int>(d)]);
+        const std::size_t low = inner ? at - step : domain.grid.at(domain.neighbour(node, 2 * d));
+        const std::size_t high = inner ? at + step : domain.grid.at(domain.neighbour(node, 2 * d + 1));
+        if (domain.kind[low] == detail::beyond || domain.kind[high] == detail::beyond) fail_beside(node);
+        gradient[static_cast<int>(d)] += weight * (finest_.x[high] - finest_.x[low]);
       }
     }
-    return gradient;
+    return gradient / (2.0 * lattice_.spacing());
   }
-  double value_at(const Index<D>& node) const {
-    const std::size_t at = domains_.front().grid.at(node);
-    if (domains_.front().kind[at] == detail::beyond) {
-      throw InterfaceError(detail::message("no line of the lattice continues the solution to node ", node,
-                                           ", which the gradient at the interface needs: the domain is thinner than a "
-                                           "few spacings there; refine the lattice"));
-    }
-    return finest_.x[at];
+  [[noreturn]] void fail_beside(const Index<D>& node) const {
+    throw InterfaceError(detail::message("no line of the lattice continues the solution to all neighbours of node ",
+                                         node,
+                                         ", which the gradient at the interface needs: the domain is thinner "
+                                         "than a few spacings there; refine the lattice"));
   }
 
   Lattice<D> lattice_;

@@ -22,7 +22,7 @@ template <class S>
 constexpr void check_smoother() {
   static_assert(Smoother<S>,
                 "cambium: a smoother is a plain struct that is called as smoother(level, backwards, execution) for "
-                "levels of any scalar and dimension; see RedBlack");
+                "levels of any scalar and dimension; see docs/concepts/Smoother.md");
 }
 
 }  // namespace cambium
