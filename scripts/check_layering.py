@@ -130,7 +130,7 @@ def check_names(headers, only):
     for header, text in headers.items():
         code = COMMENT_OR_STRING.sub(lambda match: "\n" * match.group().count("\n"), text)
         for pattern, place in only:
-            if header == place or (place.endswith("/") and header.startswith(place)):
+            if any(header == one or (one.endswith("/") and header.startswith(one)) for one in place.split()):
                 continue
             for match in pattern.finditer(code):
                 line = code.count("\n", 0, match.end()) + 1

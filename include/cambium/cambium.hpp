@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>: only its users compile Eigen. Programs
-/// link with FFTW.
+/// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp>,
+/// <cambium/multigrid/krylov.hpp> and <cambium/interface/dirichlet.hpp>: only their users compile Eigen. Programs link
+/// with FFTW.
 #include <cambium/core.hpp>
 #include <cambium/interface.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
 #include <cambium/levelset.hpp>
+#include <cambium/multigrid.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>
 #include <cambium/particles.hpp>

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// \dir interface  Conditions on an interface for elliptic problems: jumps, forces spread from it.
+/// \dir interface  Conditions on the interface of a level set for elliptic problems: jumps, Dirichlet values, forces
+/// spread from it. <cambium/interface/dirichlet.hpp> is to be included by name: it compiles Eigen.
+#include <cambium/interface/continuation.hpp>
+#include <cambium/interface/cut_domain.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
 #include <cambium/interface/jump.hpp>
 #include <cambium/interface/jump_data.hpp>
@@ -11,3 +14,4 @@
 #include <cambium/interface/jump_mayo.hpp>
 #include <cambium/interface/jump_patch.hpp>
 #include <cambium/interface/jump_rule.hpp>
+#include <cambium/interface/side.hpp>

@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include <cambium/interface/cut_domain.hpp>
+
+namespace cambium::detail {
+
+/// Values of one line of the lattice next to an interface, in spacings from a node towards it, and the polynomial
+/// through them.
+struct LinePoints {
+  static constexpr int most = 4;
+  int count = 0;
+  std::array<double, most> place{};
+  std::array<double, most> value{};
+
+  void add(double x, double y) {
+    place[static_cast<std::size_t>(count)] = x;
+    value[static_cast<std::size_t>(count)] = y;
+    ++count;
+  }
+  double at(double x) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      double product = value[i];
+      for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
+        if (j != i) product *= (x - place[j]) / (place[i] - place[j]);
+      }
+      sum += product;
+    }
+    return sum;
+  }
+};
+
+/// Continues a field to the other side of the interface: along each line of the lattice that crosses it, the polynomial
+/// of degree `Degree` through the value on the interface and those of nodes of the domain. A node that several lines
+/// reach takes their mean, weighted by the inverse fourth power of the distance to the crossing. Nodes near the
+/// interface that no such line reaches, beside sharp tips, take the quadratic (or linear) continuation of nodes that
+/// have values.
+template <int D, int Degree = 3>
+class Continuation {
+ public:
+  static_assert(Degree >= 1 && Degree < LinePoints::most);
+  struct Value {
+    std::size_t at;
+    Index<D> node;
+    double weight;
+    double sum;
+  };
+
+  /// Writes the values into x, and marks their nodes as `continued`; forget() undoes that.
+  /// \param x       values at the entries of the level
+  /// \param data    values on the interface: those of node i of the domain's cut nodes at 2 D i + leg
+  /// \param reach   nodes to go beyond the interface
+  const std::vector<Value>& find(CutDomain<D>& domain, double* x, const std::vector<double>& data,
+                                 std::ptrdiff_t reach) {
+    values_.clear();
+    for (std::size_t i = 0; i < domain.nodes.size(); ++i) {
+      for (std::size_t k = 0; k < 2 * D; ++k) {
+        if (domain.nodes[i].leg[k] >= 0.0) follow(domain, x, data, i, k, reach);
+      }
+    }
+    std::ranges::stable_sort(values_, {}, &Value::at);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      if (kept > 0 && values_[kept - 1].at == values_[i].at) {
+        values_[kept - 1].weight += values_[i].weight;
+        values_[kept - 1].sum += values_[i].sum;
+      } else {
+        values_[kept++] = values_[i];
+      }
+    }
+    values_.resize(kept);
+    write(domain, x, 0);
+    find_missing(domain, reach);
+    for (int round = 0; round < 2 * D && !missing_.empty(); ++round) {
+      const std::size_t before = values_.size();
+      std::erase_if(missing_, [&](const Index<D>& node) { return extrapolate(domain, x, node); });
+      write(domain, x, before);
+    }
+    return values_;
+  }
+  void forget(CutDomain<D>& domain, double* x) const {
+    for (const Value& value : values_) {
+      x[value.at] = 0.0;
+      domain.kind[value.at] = beyond;
+    }
+  }
+
+ private:
+  /// Closer to the interface than this a node adds nothing but round-off to the polynomial.
+  static constexpr double too_close = 0.25;
+
+  void follow(const CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i,
+              std::size_t k, std::ptrdiff_t reach) {
+    const CutNode<D>& start = domain.nodes[i];
+    const double crossing = start.leg[k];
+    const LinePoints line = points(domain, x, data, i, k);
+    Index<D> node = start.node;
+    for (std::ptrdiff_t m = 1; m <= reach; ++m) {
+      const Index<D> next = domain.neighbour(node, k);
+      const bool wall = !domain.grid.periodic[static_cast<int>(k / 2)] &&
+                        next[static_cast<int>(k / 2)] - node[static_cast<int>(k / 2)] != (k % 2 == 0 ? -1 : 1);
+      if (wall || domain.in_domain(next)) return;
+      node = next;
+      const double distance = static_cast<double>(m) - crossing + 0.1;
+      const double weight = 1.0 / (distance * distance * distance * distance);
+      values_.push_back({domain.grid.at(node), node, weight, weight * line.at(static_cast<double>(m))});
+    }
+  }
+  LinePoints points(const CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i,
+                    std::size_t k) const {
+    const std::size_t back = k ^ 1;
+    const CutNode<D>& start = domain.nodes[i];
+    LinePoints line;
+    line.add(start.leg[k], data[2 * D * i + k]);
+    Index<D> node = start.node;
+    double place = 0.0;
+    while (line.count <= Degree) {
+      const std::size_t at = domain.grid.at(node);
+      const bool close = line.place[0] - place < too_close;
+      if (!close) line.add(place, x[at]);
+      if (line.count > Degree || domain.kind[at] == given) break;
+      const double leg = domain.leg(node, back);
+      if (leg >= 0.0) {
+        const auto number = static_cast<std::size_t>(&domain.cut_node(at) - domain.nodes.data());
+        const bool apart = line.place[static_cast<std::size_t>(line.count - 1)] - (place - leg) >= too_close;
+        if (apart) line.add(place - leg, data[2 * D * number + back]);
+        break;
+      }
+      node = domain.neighbour(node, back);
+      place -= 1.0;
+    }
+    return line;
+  }
+
+  void write(CutDomain<D>& domain, double* x, std::size_t from) const {
+    for (std::size_t i = from; i < values_.size(); ++i) {
+      x[values_[i].at] = values_[i].sum / values_[i].weight;
+      domain.kind[values_[i].at] = continued;
+    }
+  }
+  /// Nodes up to two indices away from cut nodes that have no value.
+  void find_missing(const CutDomain<D>& domain, std::ptrdiff_t reach) {
+    missing_.clear();
+    const std::ptrdiff_t r = std::min<std::ptrdiff_t>(reach, 2);
+    for (const auto& start : domain.nodes) {
+      const Index<D> around = Index<D>::constant(r);
+      for_each_row<D>(start.node - around, start.node + around, [&](const Index<D>& first) {
+        Index<D> node = first;
+        for (std::ptrdiff_t i = 0; i <= 2 * r; ++i) {
+          node = first;
+          node[0] += i;
+          bool inside = true;
+          for (int d = 0; d < D; ++d) {
+            const std::ptrdiff_t n = domain.grid.nodes[d];
+            if (domain.grid.periodic[d]) node[d] = (node[d] % n + n) % n;
+            inside = inside && node[d] >= 0 && node[d] < n;
+          }
+          if (inside && !domain.in_domain(node)) missing_.push_back(node);
+        }
+      });
+    }
+    const auto entry = [&](const Index<D>& node) { return domain.grid.at(node); };
+    std::ranges::sort(missing_, {}, entry);
+    missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
+  }
+  /// Mean over the lines with most values. \return false if there is none
+  bool extrapolate(const CutDomain<D>& domain, const double* x, const Index<D>& node) {
+    int most = 1;
+    Value value{domain.grid.at(node), node, 0.0, 0.0};
+    for (std::size_t k = 0; k < 2 * D; ++k) {
+      std::array<double, 3> v{};
+      int count = 0;
+      Index<D> next = domain.neighbour(node, k);
+      while (count < 3 && domain.in_domain(next)) {
+        v[static_cast<std::size_t>(count++)] = x[domain.grid.at(next)];
+        next = domain.neighbour(next, k);
+      }
+      if (count < 2 || count < most) continue;
+      if (count > most) value.weight = value.sum = 0.0;
+      most = count;
+      value.weight += 1.0;
+      value.sum += count == 3 ? 3.0 * (v[0] - v[1]) + v[2] : 2.0 * v[0] - v[1];
+    }
+    if (value.weight > 0.0) values_.push_back(value);
+    return value.weight > 0.0;
+  }
+
+  std::vector<Value> values_;
+  std::vector<Index<D>> missing_;
+};
+
+}  // namespace cambium::detail
