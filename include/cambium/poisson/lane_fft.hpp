@@ -16,8 +16,8 @@ namespace cambium::detail {
 ///
 /// Row j of an array holds the real parts of x_j of all lines, then the imaginary ones: `pitch` numbers, on a cache
 /// line. Stockham's algorithm (Van Loan, Computational Frameworks for the Fast Fourier Transform, section 1.7) with
-/// radix 4 and 2, and as many operations as in the definition for each odd prime factor: lengths with small factors are
-/// fast, a prime one costs n^2. Any length is exact to round-off.
+/// radix 8, 4 and 2, and as many operations as in the definition for each odd prime factor: lengths with small factors
+/// are fast, a prime one costs n^2. Any length is exact to round-off.
 template <class T>
 class LaneFft {
  public:
@@ -31,6 +31,7 @@ class LaneFft {
       root_[j] = {static_cast<T>(std::cos(angle)), static_cast<T>(-std::sin(angle))};
     }
     std::size_t rest = size;
+    while (rest % 8 == 0) factors_.push_back(8), rest /= 8;
     while (rest % 4 == 0) factors_.push_back(4), rest /= 4;
     for (std::size_t prime = 2; rest > 1; ++prime) {
       while (rest % prime == 0) factors_.push_back(prime), rest /= prime;
@@ -46,7 +47,9 @@ class LaneFft {
     std::size_t length = size_;
     std::size_t stride = 1;
     for (const std::size_t radix : factors_) {
-      if (radix == 4) {
+      if (radix == 8) {
+        stage_8(length, stride, x, y);
+      } else if (radix == 4) {
         stage_4(length, stride, x, y);
       } else if (radix == 2) {
         stage_2(length, stride, x, y);
@@ -76,6 +79,39 @@ class LaneFft {
     Complex times_minus_i() const { return {im, Lanes(T(0)) - re}; }
   };
 
+  /// Transforms of four points: z := a + b + c + d, a - i b - c + i d, ...
+  static void four(const Complex& a, const Complex& b, const Complex& c, const Complex& d, Complex (&z)[4]) {
+    const Complex even = a + c, odd = b + d, left = a - c, right = (b - d).times_minus_i();
+    z[0] = even + odd;
+    z[1] = left + right;
+    z[2] = even - odd;
+    z[3] = left - right;
+  }
+
+  void stage_8(std::size_t length, std::size_t stride, const T* x, T* y) const {
+    const std::size_t part = length / 8;
+    const std::size_t apart = pitch * stride;
+    const Lanes diagonal(static_cast<T>(std::numbers::sqrt2 / 2.0));
+    for (std::size_t p = 0; p < part; ++p) {
+      for (std::size_t q = 0; q < stride; ++q) {
+        const T* const from = x + pitch * q + apart * p;
+        T* const to = y + pitch * q + apart * 8 * p;
+        const auto point = [&](std::size_t l) { return Complex::load(from + l * apart * part); };
+        Complex even[4], odd[4];
+        four(point(0), point(2), point(4), point(6), even);
+        four(point(1), point(3), point(5), point(7), odd);
+        odd[1] = {diagonal * (odd[1].re + odd[1].im), diagonal * (odd[1].im - odd[1].re)};
+        odd[2] = odd[2].times_minus_i();
+        odd[3] = {diagonal * (odd[3].im - odd[3].re), Lanes(T(0)) - diagonal * (odd[3].re + odd[3].im)};
+        for (std::size_t m = 0; m < 4; ++m) {
+          const Complex low = even[m] + odd[m], high = even[m] - odd[m];
+          (p == 0 || m == 0 ? low : low.times(root_[m * p * (size_ / length)])).store(to + m * apart);
+          (p == 0 ? high : high.times(root_[(m + 4) * p * (size_ / length)])).store(to + (m + 4) * apart);
+        }
+      }
+    }
+  }
+
   /// What is left of `length` points, `stride` interleaved transforms; as for the other radices.
   void stage_4(std::size_t length, std::size_t stride, const T* x, T* y) const {
     const std::size_t quarter = length / 4;
@@ -86,19 +122,13 @@ class LaneFft {
       for (std::size_t q = 0; q < stride; ++q) {
         const T* const from = x + pitch * q + apart * p;
         T* const to = y + pitch * q + apart * 4 * p;
-        const Complex a = Complex::load(from), b = Complex::load(from + apart * quarter);
-        const Complex c = Complex::load(from + 2 * apart * quarter), d = Complex::load(from + 3 * apart * quarter);
-        const Complex even = a + c, odd = b + d, left = a - c, right = (b - d).times_minus_i();
-        (even + odd).store(to);
-        if (p == 0) {
-          (left + right).store(to + apart);
-          (even - odd).store(to + 2 * apart);
-          (left - right).store(to + 3 * apart);
-        } else {
-          (left + right).times(w1).store(to + apart);
-          (even - odd).times(w2).store(to + 2 * apart);
-          (left - right).times(w3).store(to + 3 * apart);
-        }
+        const auto point = [&](std::size_t l) { return Complex::load(from + l * apart * quarter); };
+        Complex z[4];
+        four(point(0), point(1), point(2), point(3), z);
+        z[0].store(to);
+        (p == 0 ? z[1] : z[1].times(w1)).store(to + apart);
+        (p == 0 ? z[2] : z[2].times(w2)).store(to + 2 * apart);
+        (p == 0 ? z[3] : z[3].times(w3)).store(to + 3 * apart);
       }
     }
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+
 #include <cambium/poisson/boundary.hpp>
 #include <cambium/poisson/lane_fft.hpp>
 
@@ -53,6 +55,12 @@ class LineTransform {
   /// Transforms the rows from + r from_pitch into the rows to + r to_pitch, r = 0, ..., size() - 1, of `lines` numbers
   /// each, on a cache line; they may be the same.
   void run(const T* from, std::size_t from_pitch, T* to, std::size_t to_pitch, T* a, T* b) const {
+    run(from, from_pitch, size(), to, to_pitch, size(), a, b);
+  }
+  /// The same; along a periodic axis only the first `given` rows are read, the others being zero, and only the first
+  /// `wanted` ones written.
+  void run(const T* from, std::size_t from_pitch, std::size_t given, T* to, std::size_t to_pitch, std::size_t wanted,
+           T* a, T* b) const {
     T* const start = fft_.odd() ? a : b;
     Lanes odd[2] = {Lanes(T(0)), Lanes(T(0))};
     switch (boundary_) {
@@ -63,7 +71,8 @@ class LineTransform {
         fold_cosine(from, from_pitch, start, odd);
         break;
       case Boundary::periodic:
-        for (std::size_t j = 0; j < cells_; ++j) copy_row(from + j * from_pitch, start + j * lines);
+        for (std::size_t j = 0; j < given; ++j) copy_row(from + j * from_pitch, start + j * lines);
+        std::fill(start + given * lines, start + cells_ * lines, T(0));
     }
     fft_.run(start, fft_.odd() ? b : a);
     switch (boundary_) {
@@ -72,7 +81,7 @@ class LineTransform {
       case Boundary::neumann:
         return unfold_cosine(b, to, to_pitch, odd);
       case Boundary::periodic:
-        return unfold_hartley(b, to, to_pitch);
+        return unfold_hartley(b, to, to_pitch, wanted);
     }
   }
 
@@ -147,8 +156,8 @@ class LineTransform {
       }
     }
   }
-  void unfold_hartley(const T* z, T* y, std::size_t pitch) const {
-    for (std::size_t k = 0; k < cells_; ++k) {
+  void unfold_hartley(const T* z, T* y, std::size_t pitch, std::size_t wanted) const {
+    for (std::size_t k = 0; k < wanted; ++k) {
       const Sums sum = sums(z, k);
       for (int half = 0; half < 2; ++half) store(sum.cosine[half] + sum.sine[half], y + k * pitch, half);
     }
