@@ -66,6 +66,7 @@ class BoxTransform {
   T* at(const Index<D>& m) { return values_.data() + dot(m, pitch_); }
   std::size_t pitch(int axis) const { return static_cast<std::size_t>(pitch_[axis]); }
 
+  void clear() { std::fill(values_.begin(), values_.end(), T(0)); }
   /// Calls f(row, first entry) for every row along axis 0; what f does not write of a row stays as it is.
   template <class F>
   void for_each_row(F&& f) {
@@ -95,6 +96,35 @@ class BoxTransform {
   void to_nodes() {
     if (D == 3) transform_axis(1);
     rows_to_waves();
+  }
+  /// Transforms along every axis; twice gives back what there was, times the norms.
+  void transform() {
+    to_waves();
+    transform_axis(last);
+  }
+  /// Transforms along the last axis and calls use(m, waves), where entry k pitch(last) + i of `waves` is the wave
+  /// m + (i, 0, k). Tiles of the same m[0], a multiple of `lines`, are called for one after the other, in order.
+  template <class F>
+  void use_waves(F&& use) {
+    const std::ptrdiff_t blocks = round_up(sizes_[0]) / static_cast<std::ptrdiff_t>(lines);
+    const auto run = [&](std::size_t worker, std::size_t block, std::size_t) {
+      auto& work = work_[worker];
+      Index<D> m = Index<D>::unit(0, static_cast<std::ptrdiff_t>(block * lines));
+      for (std::ptrdiff_t j = 0; j < (D == 3 ? sizes_[1] : 1); ++j) {
+        if (D == 3) m[1] = j;
+        line(last).run(at(m), pitch(last), at(m), pitch(last), work[0].data(), work[1].data());
+        use(m, at(m));
+      }
+    };
+    for_each_piece_by_worker(execution_, static_cast<std::size_t>(blocks), 1, run);
+  }
+  /// Calls change(m, waves) in any order, then transforms along the last axis.
+  template <class F>
+  void put_waves(F&& change) {
+    for_each_tile(last, [&](const Index<D>& m, Work& work) {
+      change(m, at(m));
+      line(last).run(at(m), pitch(last), at(m), pitch(last), work[0].data(), work[1].data());
+    });
   }
   /// Transforms along the last axis, calls change(m, tile) and transforms back: entry k `lines` + i of `tile` is the
   /// wave m + (i, 0, k), m[0] a multiple of `lines`. Entries beyond sizes()[0] mean nothing and must stay finite.
