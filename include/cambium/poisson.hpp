@@ -19,6 +19,7 @@
 #include <cambium/poisson/lane_fft.hpp>
 #include <cambium/poisson/lattice_green.hpp>
 #include <cambium/poisson/line_transform.hpp>
+#include <cambium/poisson/padded_fft.hpp>
 #include <cambium/poisson/periodic.hpp>
 #include <cambium/poisson/periodic_transform.hpp>
 #include <cambium/poisson/second_order.hpp>

@@ -62,6 +62,7 @@ class BoxPoisson {
       singular_ = singular_ && boundary[d] != Boundary::dirichlet;
       tabulate(d);
     }
+    if (singular_) rows_.resize(transform_.rows());
   }
 
   const Lattice<D>& lattice() const { return lattice_; }
@@ -115,12 +116,9 @@ class BoxPoisson {
     }
     load(f, slopes, u);
     const double mean = singular_ ? examine_mean() : 0.0;
-    transform_.to_waves();
     transform_.change_waves([&](const Index<D>& m, T* tile) { divide(m, tile); });
-    transform_.to_nodes();
-    const std::ptrdiff_t count = transform_.sizes()[0];
-    transform_.for_each_row([&](const Index<D>& row, const T* values) {
-      std::copy_n(values, count, u.data() + lattice_.number(row + first_node()));
+    transform_.to_nodes([&](const Index<D>& row, const T* values) {
+      std::copy_n(values, transform_.sizes()[0], u.data() + lattice_.number(row + first_node()));
     });
     return mean;
   }
@@ -131,12 +129,12 @@ class BoxPoisson {
     return result;
   }
 
-  /// Right-hand sides, with what is known moved to them. \throws ValueError if a number is not finite
+  /// Transforms right-hand sides, with what is known moved to them, along all axes but the last. \throws ValueError if
+  /// a number is not finite
   void load(const Field<T, D>& f, const Slopes* slopes, const Field<T, D>& u) {
     std::atomic<bool> finite = true;
     std::atomic<bool> zero = true;
-    transform_.clear_margins();
-    transform_.for_each_row([&](const Index<D>& row, T* values) {
+    transform_.to_waves([&](const Index<D>& row, T* values) {
       const std::ptrdiff_t count = transform_.sizes()[0];
       std::copy_n(f.data() + lattice_.number(row + first_node()), count, values);
       for (int d = 0; d < D; ++d) {
@@ -145,6 +143,7 @@ class BoxPoisson {
       bool good = true;
       for (std::ptrdiff_t i = 0; i < count; ++i) good &= std::abs(values[i]) <= std::numeric_limits<T>::max();
       if (!good) finite = false;
+      if (singular_) rows_[row_number(row)] = weigh(row, values);
     });
     if (!finite) {
       throw ValueError(
@@ -178,25 +177,29 @@ class BoxPoisson {
     return zero;
   }
 
-  /// Mean of what load() left, by the trapezoidal rule across bounded axes. \throws ValueError as Params say
-  double examine_mean() {
-    rows_.assign(transform_.rows(), {});
+  std::size_t row_number(const Index<D>& row) const {
+    const Index<D>& sizes = transform_.sizes();
+    return static_cast<std::size_t>(D == 3 ? row[D - 1] * sizes[1] + row[1] : row[1]);
+  }
+  /// Sum of a row, by the trapezoidal rule across bounded axes, and its largest value.
+  std::array<double, 2> weigh(const Index<D>& row, const T* values) const {
+    std::array<double, 2> result{};
+    for (std::ptrdiff_t i = 0; i < transform_.sizes()[0]; ++i) {
+      double weight = 1.0;
+      for (int d = 0; d < D; ++d) {
+        const std::ptrdiff_t at = d == 0 ? i : row[d];
+        const bool face = at == 0 || at == transform_.sizes()[d] - 1;
+        if (face && transform_.line(d).boundary() == Boundary::neumann) weight *= 0.5;
+      }
+      result[0] += weight * static_cast<double>(values[i]);
+      result[1] = std::max(result[1], std::abs(static_cast<double>(values[i])));
+    }
+    return result;
+  }
+  /// Mean of what load() was given. \throws ValueError as Params say
+  double examine_mean() const {
     double cells = 1.0;
     for (int d = 0; d < D; ++d) cells *= static_cast<double>(transform_.line(d).cells());
-    for_each(execution_, rows_.size(), [&](std::size_t r) {
-      const Index<D> row = transform_.row(r);
-      const T* const values = transform_.at(row);
-      for (std::ptrdiff_t i = 0; i < transform_.sizes()[0]; ++i) {
-        double weight = 1.0;
-        for (int d = 0; d < D; ++d) {
-          const std::ptrdiff_t at = d == 0 ? i : row[d];
-          const bool face = at == 0 || at == transform_.sizes()[d] - 1;
-          if (face && transform_.line(d).boundary() == Boundary::neumann) weight *= 0.5;
-        }
-        rows_[r][0] += weight * static_cast<double>(values[i]);
-        rows_[r][1] = std::max(rows_[r][1], std::abs(static_cast<double>(values[i])));
-      }
-    });
     double mean = 0.0;
     double largest = 0.0;
     for (const auto& [sum, most] : rows_) {

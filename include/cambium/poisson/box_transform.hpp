@@ -87,20 +87,31 @@ class BoxTransform {
     });
   }
 
-  /// Transforms along every axis but the last.
-  void to_waves() {
-    rows_to_waves();
+  /// Fills rows by read(m, row), m the wave numbers (or nodes) of the first entry, and transforms them along every axis
+  /// but the last, each while it is in the cache.
+  template <class Read>
+  void to_waves(Read&& read) {
+    for_each_row_tile([&](const Index<D>& m, T* values, Work& work) {
+      fill_rows(m, values, read);
+      transform_rows(values, work);
+    });
     if (D == 3) transform_axis(1);
   }
-  /// The same in reverse order: gives back what there was, times the norms.
-  void to_nodes() {
+  /// The same in reverse order, write(m, row) taking what comes out: what there was times the norms.
+  template <class Write>
+  void to_nodes(Write&& write) {
     if (D == 3) transform_axis(1);
-    rows_to_waves();
+    for_each_row_tile([&](const Index<D>& m, T* values, Work& work) {
+      transform_rows(values, work);
+      for (std::ptrdiff_t r = 0; r < static_cast<std::ptrdiff_t>(lines) && m[1] + r < sizes_[1]; ++r) {
+        write(m + Index<D>::unit(1, r), static_cast<const T*>(values + r * pitch_[1]));
+      }
+    });
   }
-  /// Transforms along every axis; twice gives back what there was, times the norms.
+  /// Transforms what is there along every axis; twice gives it back, times the norms.
   void transform() {
-    to_waves();
-    transform_axis(last);
+    for_each_row_tile([&](const Index<D>&, T* values, Work& work) { transform_rows(values, work); });
+    for (int d = 1; d < D; ++d) transform_axis(d);
   }
   /// Transforms along the last axis and calls use(m, waves), where entry k pitch(last) + i of `waves` is the wave
   /// m + (i, 0, k). Tiles of the same m[0], a multiple of `lines`, are called for one after the other, in order.
@@ -169,7 +180,9 @@ class BoxTransform {
     });
   }
 
-  void rows_to_waves() {
+  /// Calls f(m, row, work) for every `lines` rows along axis 0, of which `row` is the first and starts at m.
+  template <class F>
+  void for_each_row_tile(F&& f) {
     const std::ptrdiff_t blocks = round_up(sizes_[1]) / static_cast<std::ptrdiff_t>(lines);
     const std::ptrdiff_t planes = D == 3 ? sizes_[last] : 1;
     const auto run = [&](std::size_t worker, std::size_t begin, std::size_t end) {
@@ -177,10 +190,20 @@ class BoxTransform {
         Index<D> m;
         if (D == 3) m[last] = tile / blocks;
         m[1] = tile % blocks * static_cast<std::ptrdiff_t>(lines);
-        transform_rows(at(m), work_[worker]);
+        f(m, at(m), work_[worker]);
       }
     };
     for_each_piece_by_worker(execution_, static_cast<std::size_t>(blocks * planes), 8, run);
+  }
+  /// What fills rows and tiles up is cleared: transforms leave round-off there, which would grow from one to the next.
+  template <class Read>
+  void fill_rows(const Index<D>& m, T* values, Read&& read) {
+    for (std::ptrdiff_t r = 0; r < static_cast<std::ptrdiff_t>(lines); ++r) {
+      T* const row = values + r * pitch_[1];
+      const bool inside = m[1] + r < sizes_[1];
+      if (inside) read(m + Index<D>::unit(1, r), row);
+      std::fill(row + (inside ? sizes_[0] : 0), row + round_up(sizes_[0]), T(0));
+    }
   }
   void transform_rows(T* values, Work& work) {
     constexpr std::size_t width = Line::width;

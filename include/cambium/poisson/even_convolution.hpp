@@ -3,15 +3,16 @@
 #pragma once
 
 #include <cambium/poisson/box_transform.hpp>
+#include <cambium/poisson/padded_fft.hpp>
 
 namespace cambium::detail {
 
 /// Sums u(n) = sum_m K(|n - m|) f(m) over the nodes of a box, for a kernel K that is even along each axis.
 ///
-/// Values are padded with zeros to twice the cells and transformed by Hartley's waves, on which an even kernel acts by
-/// one real number for each: no complex data anywhere. Transforms are pruned: lines known to be zero, or not wanted,
-/// are not transformed, and the last axis is transformed, multiplied and transformed back while it is in the cache.
-/// Along axis 0 the waves k and 2 n - k, on which the kernel acts alike, are stored in the two halves of a tile row.
+/// Values are padded with zeros to twice the cells and transformed to complex waves, on which a real even kernel acts
+/// by one real number for each. Transforms are pruned: lines known to be zero, or not wanted, are not transformed,
+/// padding is never touched (PaddedFft), and the last axis is transformed, multiplied and transformed back while it is
+/// in the cache. Along axis 0 two real lines make one complex line, and are told apart afterwards.
 template <int D, class T, Execution E>
 class EvenConvolution {
  public:
@@ -23,12 +24,11 @@ class EvenConvolution {
   /// \param kernel  K at offsets 0, ..., cells along each axis, axis 0 fastest
   EvenConvolution(const Index<D>& cells, const AlignedVector<double>& kernel, const E& execution)
       : execution_(execution), cells_(cells) {
-    std::size_t work = 0;
+    std::size_t work = padded_nodes() * lines;
     for (int d = 0; d < D; ++d) {
-      line_.emplace_back(Boundary::periodic, 2 * static_cast<std::size_t>(cells[d]));
-      work = std::max(work, line_.back().size() * lines);
+      padded_.emplace_back(static_cast<std::size_t>(cells[d]));
+      work = std::max(work, padded_.back().half_size());
     }
-    work = std::max(work, padded_nodes() * lines);
     blocks_ = static_cast<std::size_t>(cells[0]) / width + 1;
     row_pitch_ = blocks_ * lines + width;
     plane_pitch_ = (nodes(1) + lines) * row_pitch_ + width;
@@ -36,32 +36,36 @@ class EvenConvolution {
     tabulate(kernel);
     work_.resize(static_cast<std::size_t>(execution.count()));
     for (auto& arrays : work_) {
-      for (int a = 0; a < 3; ++a) arrays[static_cast<std::size_t>(a)].resize(work);
-      if (D == 3) arrays[3].resize(nodes(last) * slab_pitch());
+      for (std::size_t a = 0; a < 4; ++a) arrays[a].resize(work);
+      if (D == 3) arrays[4].resize(nodes(last) * slab_pitch());
     }
   }
 
   /// read(i, j, k, x) fills x[0, nodes) with f of the row along axis 0 at (j, k); write(j, k, x) takes u from there.
   template <class Read, class Write>
   void operator()(Read&& read, Write&& write) {
-    for_each_row_tile([&](std::size_t j, std::size_t k, auto& work) {
+    const auto& fft = padded_.front();
+    for_each_row_tile([&](std::size_t j, std::size_t k, Work& work) {
       read_rows(j, k, work, read);
-      line_[0].run(work[2].data(), lines, nodes(0), work[2].data(), lines, line_[0].size(), work[0].data(),
-                   work[1].data());
-      store_waves(j, k, work[2].data());
+      for (int parity = 0; parity < 2; ++parity) {
+        T* const half = work[parity == 0 ? 0 : 2].data();
+        fft.forward(parity, work[3].data(), lines, half, work[1].data());
+      }
+      store_waves(j, k, work);
     });
     for_each_piece_by_worker(execution_, blocks_, 1,
                              [&](std::size_t worker, std::size_t b, std::size_t) { convolve_block(b, work_[worker]); });
-    for_each_row_tile([&](std::size_t j, std::size_t k, auto& work) {
-      load_waves(j, k, work[2].data());
-      line_[0].run(work[2].data(), lines, line_[0].size(), work[2].data(), lines, nodes(0), work[0].data(),
-                   work[1].data());
+    for_each_row_tile([&](std::size_t j, std::size_t k, Work& work) {
+      load_waves(j, k, work);
+      const T* const even = fft.backward(work[0].data(), work[1].data());
+      T* const rest = even == work[0].data() ? work[1].data() : work[0].data();
+      fft.join(even, fft.backward(work[2].data(), rest), work[3].data(), lines, true);
       write_rows(j, k, work, write);
     });
   }
 
  private:
-  using Work = std::array<AlignedVector<T>, 4>;
+  using Work = std::array<AlignedVector<T>, 5>;
 
   std::size_t nodes(int d) const { return static_cast<std::size_t>(cells_[d]) + 1; }
   std::size_t waves(int d) const { return 2 * static_cast<std::size_t>(cells_[d]); }
@@ -76,13 +80,11 @@ class EvenConvolution {
     const auto count = static_cast<std::ptrdiff_t>(nodes(0));
     double scale = 1.0;
     for (int d = 0; d < D; ++d) scale *= 2.0 / static_cast<double>(waves(d));
-    transform.clear_margins();
-    transform.for_each_row([&](const Index<D>& m, double* values) {
+    transform.to_waves([&](const Index<D>& m, double* values) {
       std::ptrdiff_t number = m[last];
       for (int d = D - 2; d >= 0; --d) number = number * static_cast<std::ptrdiff_t>(nodes(d)) + m[d];
       for (std::ptrdiff_t i = 0; i < count; ++i) values[i] = scale * kernel[static_cast<std::size_t>(number + i)];
     });
-    transform.to_waves();
     const std::size_t across = D == 3 ? nodes(1) : 1;
     symbol_.resize(blocks_ * across * nodes(last) * width);
     transform.change_waves([&](const Index<D>& m, const double* tile) {
@@ -122,7 +124,7 @@ class EvenConvolution {
     }
     for (std::size_t i = 0; i < pitch; i += width) {
       for (std::size_t r = 0; r < lines; r += width) {
-        simd::transpose<width>(rows + r * pitch + i, static_cast<std::ptrdiff_t>(pitch), work[2].data() + i * lines + r,
+        simd::transpose<width>(rows + r * pitch + i, static_cast<std::ptrdiff_t>(pitch), work[3].data() + i * lines + r,
                                static_cast<std::ptrdiff_t>(lines));
       }
     }
@@ -133,7 +135,7 @@ class EvenConvolution {
     T* const rows = work[0].data();
     for (std::size_t i = 0; i < pitch; i += width) {
       for (std::size_t r = 0; r < lines; r += width) {
-        simd::transpose<width>(work[2].data() + i * lines + r, static_cast<std::ptrdiff_t>(lines), rows + r * pitch + i,
+        simd::transpose<width>(work[3].data() + i * lines + r, static_cast<std::ptrdiff_t>(lines), rows + r * pitch + i,
                                static_cast<std::ptrdiff_t>(pitch));
       }
     }
@@ -141,93 +143,119 @@ class EvenConvolution {
   }
   std::size_t padded_nodes() const { return (nodes(0) + width - 1) / width * width; }
 
-  /// Wave k of each line to the lower half of its block, 2 n - k to the upper.
-  void store_waves(std::size_t j, std::size_t k, const T* tile) {
-    const std::size_t n = line_[0].size();
+  /// A row of the array that holds the waves w of two halves of lines as z = x + i y.
+  T* wave_row(std::size_t w, Work& work) const { return work[w % 2 == 0 ? 0 : 2].data() + w / 2 * lines; }
+  /// Real parts of the waves of all lines to the lower half of each block, imaginary parts to the upper: from waves of
+  /// pairs of lines, x_w = (z_w + conj z_(2n-w)) / 2 and y_w = (z_w - conj z_(2n-w)) / (2 i).
+  void store_waves(std::size_t j, std::size_t k, Work& work) {
+    using Lanes = typename Line::Lanes;
+    alignas(64) std::array<T, width * lines> re{}, im{};
+    const Lanes half(T(0.5));
     for (std::size_t b = 0; b < blocks_; ++b) {
-      T* const to = row(j, k) + b * lines;
-      if (whole(b)) {
-        move_block(tile + b * width * lines, pitch_of(lines), to, pitch_of(row_pitch_));
-        move_block(tile + (n - b * width) * lines, -pitch_of(lines), to + width, pitch_of(row_pitch_));
-        continue;
-      }
       for (std::size_t i = 0; i < width; ++i) {
-        const std::size_t wave = (b * width + i) % n;
-        for (std::size_t r = 0; r < lines; ++r) {
-          to[r * row_pitch_ + i] = tile[wave * lines + r];
-          to[r * row_pitch_ + width + i] = tile[(n - wave) % n * lines + r];
+        const std::size_t w = b * width + i;
+        T* const to_re = re.data() + i * lines;
+        T* const to_im = im.data() + i * lines;
+        if (w >= nodes(0)) {
+          std::fill(to_re, to_re + lines, T(0));
+          std::fill(to_im, to_im + lines, T(0));
+          continue;
         }
+        const T* const z = wave_row(w, work);
+        const T* const mirror = wave_row(w == 0 ? 0 : waves(0) - w, work);
+        const Lanes z_re = Lanes::load_aligned(z), z_im = Lanes::load_aligned(z + width);
+        const Lanes m_re = Lanes::load_aligned(mirror), m_im = Lanes::load_aligned(mirror + width);
+        (half * (z_re + m_re)).store_aligned(to_re);
+        (half * (z_im + m_im)).store_aligned(to_re + width);
+        (half * (z_im - m_im)).store_aligned(to_im);
+        (half * (m_re - z_re)).store_aligned(to_im + width);
+      }
+      T* const to = row(j, k) + b * lines;
+      for (std::size_t r = 0; r < lines; r += width) {
+        simd::transpose<width>(re.data() + r, pitch_of(lines), to + r * row_pitch_, pitch_of(row_pitch_));
+        simd::transpose<width>(im.data() + r, pitch_of(lines), to + r * row_pitch_ + width, pitch_of(row_pitch_));
       }
     }
   }
-  void load_waves(std::size_t j, std::size_t k, T* tile) {
-    const std::size_t n = line_[0].size();
+  /// The way back, with real and imaginary parts of z exchanged.
+  void load_waves(std::size_t j, std::size_t k, Work& work) {
+    using Lanes = typename Line::Lanes;
+    alignas(64) std::array<T, width * lines> re, im;
     for (std::size_t b = 0; b < blocks_; ++b) {
       const T* const from = row(j, k) + b * lines;
-      if (whole(b)) {
-        for (std::size_t r = 0; r < lines; r += width) {
-          T* const to = tile + b * width * lines + r;
-          simd::transpose<width>(from + r * row_pitch_, pitch_of(row_pitch_), to, pitch_of(lines));
-          simd::transpose<width>(from + r * row_pitch_ + width, pitch_of(row_pitch_),
-                                 tile + (n - b * width) * lines + r, -pitch_of(lines));
-        }
-        continue;
+      for (std::size_t r = 0; r < lines; r += width) {
+        simd::transpose<width>(from + r * row_pitch_, pitch_of(row_pitch_), re.data() + r, pitch_of(lines));
+        simd::transpose<width>(from + r * row_pitch_ + width, pitch_of(row_pitch_), im.data() + r, pitch_of(lines));
       }
-      for (std::size_t wave = b * width; wave < std::min((b + 1) * width, nodes(0)); ++wave) {
-        for (std::size_t r = 0; r < lines; ++r) {
-          tile[wave * lines + r] = from[r * row_pitch_ + wave % width];
-          if (wave > 0) tile[(n - wave) * lines + r] = from[r * row_pitch_ + width + wave % width];
-        }
+      for (std::size_t w = b * width; w < std::min((b + 1) * width, nodes(0)); ++w) {
+        const T* const at_re = re.data() + w % width * lines;
+        const T* const at_im = im.data() + w % width * lines;
+        const Lanes x_re = Lanes::load_aligned(at_re), y_re = Lanes::load_aligned(at_re + width);
+        const Lanes x_im = Lanes::load_aligned(at_im), y_im = Lanes::load_aligned(at_im + width);
+        T* const mirror = wave_row(w == 0 ? 0 : waves(0) - w, work);
+        (y_re - x_im).store_aligned(mirror);
+        (x_re + y_im).store_aligned(mirror + width);
+        T* const z = wave_row(w, work);
+        (x_im + y_re).store_aligned(z);
+        (x_re - y_im).store_aligned(z + width);
       }
     }
   }
-  /// True if the waves of a block and their mirror images are 2 `width` different ones.
-  bool whole(std::size_t b) const { return b > 0 && (b + 1) * width < nodes(0); }
   static std::ptrdiff_t pitch_of(std::size_t n) { return static_cast<std::ptrdiff_t>(n); }
-  static void move_block(const T* from, std::ptrdiff_t from_pitch, T* to, std::ptrdiff_t to_pitch) {
-    for (std::size_t r = 0; r < lines; r += width, to += static_cast<std::ptrdiff_t>(width) * to_pitch) {
-      simd::transpose<width>(from + r, from_pitch, to, to_pitch);
-    }
-  }
 
   void convolve_block(std::size_t b, Work& work) {
     T* const values = row(0, 0) + b * lines;
     const T* const symbol = symbol_.data() + b * (D == 3 ? nodes(1) : 1) * nodes(last) * width;
     if constexpr (D == 2) {
-      multiply(values, row_pitch_, symbol, work);
+      multiply(values, row_pitch_, symbol, work, true);
     } else {
-      T* const slab = work[3].data();
+      const auto& fft = padded_[1];
+      T* const slab = work[4].data();
       for (std::size_t k = 0; k < nodes(2); ++k) {
-        line_[1].run(values + k * plane_pitch_, row_pitch_, nodes(1), slab + k * slab_pitch(), lines, waves(1),
-                     work[0].data(), work[1].data());
+        for (int parity = 0; parity < 2; ++parity) {
+          T* const waves = slab + k * slab_pitch() + (parity == 0 ? 0 : fft.half_size());
+          fft.forward(parity, values + k * plane_pitch_, row_pitch_, waves, work[0].data());
+        }
       }
       for (std::size_t j = 0; j < waves(1); ++j) {
-        multiply(slab + j * lines, slab_pitch(), symbol + std::min(j, waves(1) - j) * nodes(2) * width, work);
+        const std::size_t wave = mirrored(1, j < waves(1) / 2 ? 2 * j : 2 * j - waves(1) + 1);
+        multiply(slab + j * lines, slab_pitch(), symbol + wave * nodes(2) * width, work, false);
       }
       for (std::size_t k = 0; k < nodes(2); ++k) {
-        line_[1].run(slab + k * slab_pitch(), lines, waves(1), values + k * plane_pitch_, row_pitch_, nodes(1),
-                     work[0].data(), work[1].data());
+        T* const even = slab + k * slab_pitch();
+        const T* const first = fft.backward(even, work[0].data());
+        const T* const second = fft.backward(even + fft.half_size(), work[1].data());
+        fft.join(first, second, values + k * plane_pitch_, row_pitch_, true);
       }
     }
   }
-  /// Along the last axis: to waves, times the symbol, back.
-  void multiply(T* values, std::size_t pitch, const T* symbol, Work& work) {
+  std::size_t mirrored(int axis, std::size_t wave) const { return std::min(wave, waves(axis) - wave); }
+
+  /// Along the last axis: to waves, times the symbol, and back with real and imaginary parts exchanged or restored.
+  void multiply(T* values, std::size_t pitch, const T* symbol, Work& work, bool restore) {
     using Lanes = typename Line::Lanes;
-    T* const tile = work[2].data();
-    const std::size_t n = waves(last);
-    line_.back().run(values, pitch, nodes(last), tile, lines, n, work[0].data(), work[1].data());
-    for (std::size_t k = 0; k < n; ++k) {
-      const Lanes factor = Lanes::load_aligned(symbol + std::min(k, n - k) * width);
-      T* const row = tile + k * lines;
-      (factor * Lanes::load_aligned(row)).store_aligned(row);
-      (factor * Lanes::load_aligned(row + width)).store_aligned(row + width);
+    const auto& fft = padded_.back();
+    std::array<const T*, 2> result;
+    for (int parity = 0; parity < 2; ++parity) {
+      T* const half = work[parity == 0 ? 0 : 2].data();
+      T* const other = work[parity == 0 ? 1 : 3].data();
+      fft.forward(parity, values, pitch, half, other);
+      for (std::size_t k = 0; k < fft.cells(); ++k) {
+        const std::size_t wave = mirrored(last, 2 * k + (parity == 0 ? 0 : 1));
+        const Lanes factor = Lanes::load_aligned(symbol + wave * width);
+        T* const row = half + k * lines;
+        const Lanes re = factor * Lanes::load_aligned(row), im = factor * Lanes::load_aligned(row + width);
+        im.store_aligned(row);
+        re.store_aligned(row + width);
+      }
+      result[parity == 0 ? 0 : 1] = fft.backward(half, other);
     }
-    line_.back().run(tile, lines, n, values, pitch, nodes(last), work[0].data(), work[1].data());
+    fft.join(result[0], result[1], values, pitch, restore);
   }
 
   E execution_;
   Index<D> cells_;
-  std::vector<Line> line_;
+  std::vector<PaddedFft<T>> padded_;  ///< along each axis
   std::size_t blocks_ = 0;
   std::size_t row_pitch_ = 0;
   std::size_t plane_pitch_ = 0;

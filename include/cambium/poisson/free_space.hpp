@@ -73,7 +73,6 @@ class FreeSpacePoisson<3, T, E> {
       throw SizeError("a field is not on the lattice this Poisson solver was made for: make one solver per lattice");
     }
     load(f);
-    box_.to_waves();
     for (int d = 1; d < 3; ++d) {
       for (int side = 0; side < 2; ++side) face(d, side).clear();
     }
@@ -83,7 +82,9 @@ class FreeSpacePoisson<3, T, E> {
     potential_(charge_, value_);
     values_to_waves();
     box_.put_waves([&](const Index<3>& m, T* waves) { add_values(m, waves); });
-    box_.to_nodes();
+    box_.to_nodes([&](const Index<3>& m, const T* values) {
+      std::copy_n(values, box_.sizes()[0], u.data() + lattice_.number(m + Index<3>::constant(1)));
+    });
     store(u);
   }
 
@@ -113,15 +114,28 @@ class FreeSpacePoisson<3, T, E> {
   const T* beside(int d, int side, std::ptrdiff_t k) const {
     return beside_[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)].data() + k;
   }
-  /// h^2 f over the norm of the transforms, at the nodes off the faces.
+  /// Transforms h^2 f over the norm of the transforms, at the nodes off the faces, along all axes but the last.
   void load(const Field<T, 3>& f) {
-    detail::require_finite(f, execution_);
     const T scale = static_cast<T>(lattice_.spacing() * lattice_.spacing() / box_.norm());
-    box_.clear_margins();
-    box_.for_each_row([&](const Index<3>& m, T* values) {
+    std::atomic<bool> finite = true;
+    const auto good = [](T x) { return std::abs(x) <= std::numeric_limits<T>::max(); };
+    box_.to_waves([&](const Index<3>& m, T* values) {
       const T* const from = f.data() + lattice_.number(m + Index<3>::constant(1));
-      for (std::ptrdiff_t i = 0; i < box_.sizes()[0]; ++i) values[i] = scale * from[i];
+      bool all = true;
+      for (std::ptrdiff_t i = 0; i < box_.sizes()[0]; ++i) {
+        all &= good(from[i]);
+        values[i] = scale * from[i];
+      }
+      if (!all) finite = false;
     });
+    for (int d = 0; d < 3; ++d) {
+      for (int side = 0; side < 2; ++side) {
+        for_each_face_node(d, side, [&](const Index<3>& node, std::size_t, std::size_t) {
+          if (!good(f(node))) finite = false;
+        });
+      }
+    }
+    if (!finite) detail::require_finite(f, execution_);
   }
 
   /// Divides by the symbol and sums up what the waves make next to the faces, as waves along these.
@@ -263,9 +277,6 @@ class FreeSpacePoisson<3, T, E> {
   }
 
   void store(Field<T, 3>& u) {
-    box_.for_each_row([&](const Index<3>& m, const T* values) {
-      std::copy_n(values, box_.sizes()[0], u.data() + lattice_.number(m + Index<3>::constant(1)));
-    });
     for (int d = 0; d < 3; ++d) {
       for (int side = 0; side < 2; ++side) {
         auto& values = value_[static_cast<std::size_t>(d)][static_cast<std::size_t>(side)];

@@ -73,8 +73,7 @@ struct SpectralKernel {
       const double k = std::sqrt(static_cast<double>(square_of_k)) / static_cast<double>(half[0]);
       table[square_of_k] = scale * symbol<D>(radius, h, std::numbers::pi * k);
     });
-    transform.clear_margins();
-    transform.for_each_row([&](const Index<D>& m, double* values) {
+    transform.to_waves([&](const Index<D>& m, double* values) {
       for (std::ptrdiff_t i = 0; i <= half[0]; ++i) {
         if (cube) {
           values[i] = table[static_cast<std::size_t>(dot(m, m) + i * i)];
@@ -109,7 +108,6 @@ struct SpectralKernel {
     using Transform = detail::BoxTransform<D, double, E>;
     const Index<D> count = cells + Index<D>::constant(1);
     AlignedVector<double> result(static_cast<std::size_t>(product(count)));
-    transform.to_waves();
     transform.change_waves([&](const Index<D>& m, const double* tile) {
       for (std::ptrdiff_t k = 0; k < count[D - 1]; ++k) {
         for (std::ptrdiff_t i = m[0]; i < std::min(m[0] + static_cast<std::ptrdiff_t>(Transform::lines), count[0]);
