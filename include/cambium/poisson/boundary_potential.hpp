@@ -39,8 +39,8 @@ class BoundaryPotential {
   /// potentials := what the charges make at every node of the faces.
   void operator()(Faces<T>& charges, Faces<T>& potentials) {
     for (std::size_t d = 0; d < 3; ++d) {
-      auto& [low, high] = charges[d];
-      auto& [u_low, u_high] = potentials[d];
+      Face<T>&low = charges[d][0], &high = charges[d][1];
+      Face<T>&u_low = potentials[d][0], &u_high = potentials[d][1];
       const std::size_t width = low.width;
       parallel_[2 * d](
           [&](std::size_t q, std::size_t, T* x) {
