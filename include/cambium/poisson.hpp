@@ -15,6 +15,7 @@
 #include <cambium/poisson/fourth_order.hpp>
 #include <cambium/poisson/free_space.hpp>
 #include <cambium/poisson/free_space_convolution.hpp>
+#include <cambium/poisson/free_space_dirichlet.hpp>
 #include <cambium/poisson/free_space_kernels.hpp>
 #include <cambium/poisson/lane_fft.hpp>
 #include <cambium/poisson/lattice_green.hpp>

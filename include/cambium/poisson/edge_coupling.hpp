@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include <cambium/core/aligned.hpp>
 #include <cambium/core/vec.hpp>
 #include <cambium/parallel/execution.hpp>

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include <cambium/core/aligned.hpp>
 #include <cambium/core/lattice.hpp>
 

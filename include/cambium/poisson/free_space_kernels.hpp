@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <math.h>
+#include <cmath>
 
 #include <cambium/poisson/box_transform.hpp>
 #include <cambium/poisson/lattice_green.hpp>
