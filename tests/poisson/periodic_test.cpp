@@ -196,6 +196,20 @@ BOOST_AUTO_TEST_CASE(spectral_error_falls_faster_than_any_power) {
   BOOST_TEST((smooth_error<Spectral, 2>(8) > 1e-5));
 }
 
+// Implicit diffusion: a mean is damped like any wave. Round-off.
+BOOST_AUTO_TEST_CASE(a_shift_solves_the_modified_helmholtz_equation) {
+  const auto lattice = uneven_lattice<2>();
+  const Waves<2> waves(lattice);
+  const double shift = 40.0;
+  const auto f =
+      sample(lattice, [&](const Vec<2>& x) { return waves.minus_laplacian(x) + shift * (waves.value(x) + 3.0); });
+  Field<double, 2> u(lattice);
+  PeriodicPoisson<2> poisson(lattice, {.shift = shift});
+  BOOST_TEST(poisson.solve(f, u) == 0.0);
+  BOOST_TEST(largest_error(u, [&](const Vec<2>& x) { return waves.value(x) + 3.0; }) < 1e-12);
+  BOOST_CHECK_THROW(PeriodicPoisson<2>(lattice, {.shift = -1.0}), cambium::ValueError);
+}
+
 BOOST_AUTO_TEST_CASE(the_shortest_wave_has_no_first_derivative) {
   const auto lattice = Lattice<2>::periodic_box(cambium::Box<2>::cube(), 16);
   Field<double, 2> q(lattice);

@@ -12,7 +12,8 @@
 
 namespace cambium {
 
-/// Poisson's equation -Lap u = f on a lattice that is periodic along every axis, by Fourier transforms.
+/// Poisson's equation -Lap u = f, or (s - Lap) u = f, on a lattice that is periodic along every axis, by Fourier
+/// transforms.
 ///
 ///     cambium::PeriodicPoisson<2> poisson(lattice);
 ///     poisson.velocity(vorticity, velocity);
@@ -33,13 +34,20 @@ class PeriodicPoisson {
     MeanPart mean = MeanPart::reject;
     /// Means up to this, relative to the largest value, count as round-off: they are left out without a word.
     double mean_tolerance = sizeof(T) < sizeof(double) ? 1e-6 : 1e-10;
+    /// s >= 0, one over a squared length: if positive, (s - Lap) u = f is solved, and f may have a mean.
+    double shift = 0.0;
   };
 
-  /// \throws LatticeError unless the lattice is periodic along every axis
+  /// \throws LatticeError unless the lattice is periodic along every axis \throws ValueError if the shift is negative
+  /// or
+  ///         not finite
   explicit PeriodicPoisson(const Lattice<D>& lattice) : PeriodicPoisson(lattice, Params{}) {}
   PeriodicPoisson(const Lattice<D>& lattice, const Params& params, const E& execution = {})
       : lattice_(lattice), params_(params), execution_(execution), transform_(lattice, params.planning) {
     check_difference_symbol<Symbol>();
+    if (!(params.shift >= 0.0) || !std::isfinite(params.shift)) {
+      throw ValueError(detail::message("shift is ", params.shift, ": it must be finite and not negative"));
+    }
     if constexpr (DifferenceSymbol<Symbol>) {
       for (int d = 0; d < D; ++d) tabulate(d);
     }
@@ -47,10 +55,11 @@ class PeriodicPoisson {
 
   const Lattice<D>& lattice() const { return lattice_; }
 
-  /// Solves -Lap u = f; u has mean zero. \return the mean of f, which was left out
+  /// Solves -Lap u = f, or (s - Lap) u = f; u has mean zero unless s > 0. \return the mean of f, which was left out; 0
+  /// if s > 0
   double solve(const Field<T, D>& f, Field<T, D>& u) {
     require_lattice(f, u);
-    const double mean = detail::examine_mean(f, 0, params_.mean, params_.mean_tolerance, execution_);
+    const double mean = examine(f, 0);
     Complex* const z = spectrum(0);
     transform_.forward(f.data(), z);
     transform_.for_each_wave(execution_, [&](std::size_t i, const Index<D>& m) { z[i] *= inverse(m); });
@@ -91,7 +100,7 @@ class PeriodicPoisson {
   /// that of the flow. \return the mean of omega, which was left out
   double velocity(const Field<T, 2>& omega, Field<Vec<2, T>, 2>& u) requires(D == 2) {
     require_lattice(omega, u);
-    const double mean = detail::examine_mean(omega, 0, params_.mean, params_.mean_tolerance, execution_);
+    const double mean = examine(omega, 0);
     Complex* const z = spectrum(0);
     Complex* const work = spectrum(1);
     transform_.forward(omega.data(), z);
@@ -146,9 +155,9 @@ class PeriodicPoisson {
     }
   }
 
-  /// 1 / (number of nodes times the symbol of -Lap), 0 for the mean.
+  /// 1 / (number of nodes times the symbol of s - Lap), 0 where that is 0: for the mean if s = 0.
   T inverse(const Index<D>& m) const {
-    double sum = 0.0;
+    double sum = params_.shift;
     for (int d = 0; d < D; ++d) sum += second_[static_cast<std::size_t>(d)][static_cast<std::size_t>(m[d])];
     return sum == 0.0 ? T(0) : static_cast<T>(1.0 / (sum * static_cast<double>(lattice_.size())));
   }
@@ -167,10 +176,15 @@ class PeriodicPoisson {
   template <int C>
   Vec<C> examine(const Field<Vec<C, T>, D>& f) const {
     Vec<C> means;
-    for (int c = 0; c < C; ++c) {
-      means[c] = detail::examine_mean(f, c, params_.mean, params_.mean_tolerance, execution_);
-    }
+    for (int c = 0; c < C; ++c) means[c] = examine(f, c);
     return means;
+  }
+  template <class V>
+  double examine(const Field<V, D>& f, int c) const {
+    const bool any_mean = params_.shift > 0.0;
+    const MeanPart part = any_mean ? MeanPart::subtract : params_.mean;
+    const double mean = detail::examine_mean(f, c, part, params_.mean_tolerance, execution_);
+    return any_mean ? 0.0 : mean;
   }
 
   Complex* spectrum(std::size_t number) {

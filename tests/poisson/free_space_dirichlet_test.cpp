@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#define BOOST_TEST_MODULE free_space_dirichlet
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+#include <support/free_space.hpp>
+#include <support/order.hpp>
+#include <tuple>
+
+#include <cambium/poisson/free_space_dirichlet.hpp>
+
+using cambium::Field;
+using cambium::FreeSpaceConvolution;
+using cambium::FreeSpaceDirichlet;
+using cambium::Lattice;
+using cambium::LatticeKernel;
+using cambium::Vec;
+
+using Dimensions = std::tuple<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+
+// Theory: 2, of the point sources as of the difference equations.
+BOOST_AUTO_TEST_CASE_TEMPLATE(the_potential_of_a_gaussian_has_second_order, Which, Dimensions) {
+  constexpr int D = Which::value;
+  const support::Gaussian<D> gaussian;
+  const auto error = [&](std::ptrdiff_t cells) {
+    const auto lattice = Lattice<D>::bounded_box(cambium::Box<D>::cube(), cells);
+    const auto f = sample(lattice, [&](const Vec<D>& x) { return gaussian.source(x); });
+    Field<double, D> u(lattice);
+    FreeSpaceDirichlet<D>(lattice).solve(f, u);
+    return support::largest_difference(u, [&](const Vec<D>& x) { return gaussian.potential(x); });
+  };
+  const double order = support::observed_order(error(32), error(64));
+  BOOST_TEST_MESSAGE("order " << order);
+  BOOST_TEST(std::abs(order - 2.0) < 0.15);
+}
+
+// With values from the lattice Green's function both steps solve the same equations: nothing changes. Round-off.
+BOOST_AUTO_TEST_CASE_TEMPLATE(lattice_values_fit_the_difference_equations, Which, Dimensions) {
+  constexpr int D = Which::value;
+  cambium::Index<D> cells;
+  for (int d = 0; d < D; ++d) cells[d] = 14 + 3 * d;
+  const auto lattice = support::bounded_lattice<D>(cells, 0.1);
+  const auto f = support::noise<double>(lattice, 3);
+  Field<double, D> u(lattice), sum(lattice);
+  FreeSpaceDirichlet<D, LatticeKernel> poisson(lattice);
+  poisson.solve(f, u);
+  FreeSpaceConvolution<D>(lattice).solve(f, sum);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i) worst = std::max(worst, std::abs(u[i] - sum[i]));
+  BOOST_TEST(worst < 1e-14);
+  Field<double, D> again = f;
+  poisson.solve(again, again);
+  BOOST_TEST((std::equal(u.values().begin(), u.values().end(), again.values().begin())));
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_is_refused_and_changes_nothing) {
+  BOOST_CHECK_THROW(FreeSpaceDirichlet<2>(Lattice<2>::periodic_box(cambium::Box<2>::cube(), 8)), cambium::LatticeError);
+  const auto lattice = Lattice<2>::bounded_box(cambium::Box<2>::cube(), 8);
+  FreeSpaceDirichlet<2> poisson(lattice);
+  Field<double, 2> f(lattice), u(lattice, 9.0), other(Lattice<2>::bounded_box(cambium::Box<2>::cube(2.0), 8));
+  BOOST_CHECK_THROW(poisson.solve(f, other), cambium::SizeError);
+  BOOST_CHECK_THROW(poisson.solve(other, u), cambium::SizeError);
+  f[11] = std::numeric_limits<double>::quiet_NaN();
+  BOOST_CHECK_THROW(poisson.solve(f, u), cambium::ValueError);
+  BOOST_TEST(u[5] == 9.0);
+}
