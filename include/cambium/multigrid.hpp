@@ -3,7 +3,8 @@
 #pragma once
 
 /// \dir multigrid  Geometric multigrid on boxes, and Krylov loops that it preconditions. The solvers themselves,
-/// <cambium/multigrid/multigrid.hpp> and <cambium/multigrid/krylov.hpp>, are to be included by name: they compile Eigen.
+/// <cambium/multigrid/multigrid.hpp> and <cambium/multigrid/krylov.hpp>, are to be included by name: they compile
+/// Eigen.
 #include <cambium/multigrid/chebyshev.hpp>
 #include <cambium/multigrid/convergence_error.hpp>
 #include <cambium/multigrid/level.hpp>
