@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
   app.add_flag("--quick", quick, "coarse lattices and few shifts, to see that it runs");
   CLI11_PARSE(app, argc, argv);
   if (quick) {
-    resolutions = {16};
+    resolutions = {24};
     shifts = 5;
   }
   nlohmann::json table = nlohmann::json::array();
