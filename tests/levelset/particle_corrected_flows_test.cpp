@@ -6,6 +6,7 @@
 
 #include <cambium/levelset/advection/lagrangian.hpp>
 #include <cambium/levelset/advection/particle_corrected.hpp>
+#include <cambium/levelset/reinit/pde_reinit.hpp>
 
 #include "levelset/advection_scenes.hpp"
 
@@ -14,7 +15,7 @@ using namespace advection_scenes;
 
 namespace {
 
-/// A base that is made to err: remeshing by M4' followed, every step, by a reinitialisation.
+/// A base that is made to err: remeshing by M4' followed, every step, by a reinitialisation that moves the interface.
 using Base = Lagrangian<M4Prime>;
 using Corrected = ParticleCorrected<Base>;
 
@@ -28,7 +29,7 @@ struct Result {
 template <class F, class V>
 Result advance(const Lattice<2>& lattice, const F& shape, double perimeter, const V& velocity, double end, int steps,
                bool corrected) {
-  LevelSet<ClosestPoint, 2, double> level_set(lattice, shape, {}, Serial{});
+  LevelSet<PdeReinit<>, 2, double> level_set(lattice, shape, {}, Serial{});
   const double area = enclosed(level_set);
   Corrected particles(often);
   Base base(often.base);
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(a_vortex_loses_less) {
 BOOST_AUTO_TEST_CASE(threads_and_scalars) {
   const auto lattice = Lattice<2>::bounded_box(Box<2>::cube(), 64);
   const auto run = [&]<class T>(T, const auto& execution, std::size_t& escaped) {
-    LevelSet<ClosestPoint, 2, T> disk(lattice, Ball<2>{{0.5, 0.75}, 0.15}, {}, execution);
+    LevelSet<PdeReinit<>, 2, T> disk(lattice, Ball<2>{{0.5, 0.75}, 0.15}, {}, execution);
     auto params = often;
     params.reseed_every = 8;
     Corrected advection(params);

@@ -54,6 +54,32 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(lattice_values_fit_the_difference_equations, Which
   BOOST_TEST((std::equal(u.values().begin(), u.values().end(), again.values().begin())));
 }
 
+// What the convolution alone does not: f by the stencil inside. Round-off of u / h^2 = 0.1 * 100, and a few.
+BOOST_AUTO_TEST_CASE(inside_the_difference_equations_hold) {
+  const auto lattice = support::bounded_lattice<3>({12, 9, 10}, 0.1);
+  const auto f = support::noise<double>(lattice, 4);
+  Field<double, 3> u(lattice);
+  const auto residual = [&] {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      const auto node = lattice.node(i);
+      double sum = -f[i] * 0.01;
+      bool inside = true;
+      for (int d = 0; d < 3; ++d) inside = inside && node[d] > 0 && node[d] + 1 < lattice.nodes()[d];
+      for (int d = 0; inside && d < 3; ++d) {
+        const auto way = cambium::Index<3>::unit(d, 1);
+        sum += 2.0 * u[i] - u(node - way) - u(node + way);
+      }
+      if (inside) worst = std::max(worst, std::abs(sum) / 0.01);
+    }
+    return worst;
+  };
+  FreeSpaceDirichlet<3>(lattice).solve(f, u);
+  BOOST_TEST(residual() < 1e-12);
+  FreeSpaceConvolution<3, cambium::PointKernel>(lattice).solve(f, u);
+  BOOST_TEST(residual() > 1e-2);
+}
+
 BOOST_AUTO_TEST_CASE(bad_input_is_refused_and_changes_nothing) {
   BOOST_CHECK_THROW(FreeSpaceDirichlet<2>(Lattice<2>::periodic_box(cambium::Box<2>::cube(), 8)), cambium::LatticeError);
   const auto lattice = Lattice<2>::bounded_box(cambium::Box<2>::cube(), 8);

@@ -106,7 +106,7 @@ class Dirichlet {
     using Operator = std::function<void(const double*, double*)>;
     const Operator apply = [this](const double* in, double* out) { apply_equations(in, out); };
     const Operator cycle = [this](const double* in, double* out) { precondition(in, out); };
-    const SolveReport report =
+    SolveReport report =
         solve_krylov<Krylov, double>(apply, cycle, std::span<const double>(right_), std::span<double>(guess_),
                                      {params_.tolerance, params_.most_iterations});
     each_unknown_node([&](std::size_t, std::size_t number, std::size_t i) { c[i] = static_cast<T>(guess_[number]); });
@@ -208,8 +208,9 @@ class Dirichlet {
   void each_given_node(F&& f) const {
     const auto& domain = domains_.front();
     bool any = false;
-    for (int d = 0; d < D; ++d)
+    for (int d = 0; d < D; ++d) {
       any = any || (domain.touches[static_cast<std::size_t>(d)] && domain.grid.given_faces(d));
+    }
     if (!any) return;
     for (std::size_t i = 0; i < lattice_.size(); ++i) {
       const std::size_t at = domain.grid.at(lattice_.node(i));

@@ -27,6 +27,7 @@ class MatrixFree;
 
 }  // namespace cambium::detail
 
+// NOLINTBEGIN(readability-identifier-naming): what Eigen asks of a matrix and of a preconditioner
 namespace Eigen::internal {
 
 template <class T, class Apply>
@@ -118,6 +119,7 @@ class Preconditioner {
     return *this;
   }
   Eigen::ComputationInfo info() const { return Eigen::Success; }
+  // NOLINTEND(readability-identifier-naming)
 
   /// \param every  of so many calls, the one numbered `first` gets a residual
   template <class Apply>

@@ -121,8 +121,9 @@ AlignedVector<double> lattice_green(const Index<D>& count, const E& execution = 
       for (std::size_t q = 0; q < factor.size(); ++q) {
         factor[q] = rule.weight[q];
         auto rest = static_cast<std::ptrdiff_t>(row);
-        for (int d = 1; d < D; rest /= count[d], ++d)
+        for (int d = 1; d < D; rest /= count[d], ++d) {
           factor[q] *= rule.value[q][static_cast<std::size_t>(rest % count[d])];
+        }
       }
       for (std::size_t i = 0; i < width; i += Lanes::lanes) {
         Lanes sum(0.0);
