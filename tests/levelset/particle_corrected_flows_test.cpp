@@ -47,16 +47,16 @@ Result advance(const Lattice<2>& lattice, const F& shape, double perimeter, cons
 
 }  // namespace
 
-// One turn of Zalesak's disk in 128 steps, in a box large enough for the band to turn in.
+// One turn of Zalesak's disk in 64 steps, in a box large enough for the band to turn in.
 BOOST_AUTO_TEST_CASE(zalesaks_disk_keeps_its_corners) {
   const Lattice<2> lattice(Box<2>{{-10.0, -10.0}, {110.0, 110.0}}, 1.0, {false, false});
   const double perimeter = 30.0 * std::numbers::pi - 5.0 + 50.0;
-  const Result base = advance(lattice, SlottedDisk{}, perimeter, Rotation<2>{50.0}, 1.0, 128, false);
-  const Result both = advance(lattice, SlottedDisk{}, perimeter, Rotation<2>{50.0}, 1.0, 128, true);
+  const Result base = advance(lattice, SlottedDisk{}, perimeter, Rotation<2>{50.0}, 1.0, 64, false);
+  const Result both = advance(lattice, SlottedDisk{}, perimeter, Rotation<2>{50.0}, 1.0, 64, true);
   BOOST_TEST_MESSAGE("slotted disk: base " << base.difference << " h " << base.area << ", corrected " << both.difference
                                            << " h " << both.area);
   BOOST_TEST(both.difference < 0.6 * base.difference);
-  BOOST_TEST(std::abs(both.area) < 0.6 * std::abs(base.area));
+  BOOST_TEST(std::abs(both.area) < 0.002);  // 0.0009; the base fills the slot as much as it cuts corners
   BOOST_TEST(both.difference < 0.12);
 }
 
@@ -64,8 +64,8 @@ BOOST_AUTO_TEST_CASE(a_vortex_loses_less) {
   const auto lattice = Lattice<2>::bounded_box(Box<2>::cube(), 64);
   const Ball<2> disk{{0.5, 0.75}, 0.15};
   const double perimeter = 0.3 * std::numbers::pi;
-  const Result base = advance(lattice, disk, perimeter, Vortex<double>{2.0}, 2.0, 128, false);
-  const Result both = advance(lattice, disk, perimeter, Vortex<double>{2.0}, 2.0, 128, true);
+  const Result base = advance(lattice, disk, perimeter, Vortex<double>{2.0}, 2.0, 64, false);
+  const Result both = advance(lattice, disk, perimeter, Vortex<double>{2.0}, 2.0, 64, true);
   BOOST_TEST_MESSAGE("vortex: base " << base.difference << " h " << base.area << ", corrected " << both.difference
                                      << " h " << both.area);
   BOOST_TEST(both.difference < 0.5 * base.difference);
