@@ -33,22 +33,6 @@ template <int D>
 Lattice<D> lattice(std::ptrdiff_t cells) {
   return Lattice<D>::bounded_box(Box<D>::cube(), cells);
 }
-template <int D>
-Sphere<D> sphere() {
-  Sphere<D> sphere;
-  sphere.centre[0] += 0.013;
-  sphere.centre[1] -= 0.007;
-  return sphere;
-}
-template <class L>
-std::vector<typename L::Scalar> values(const L& level_set) {
-  std::vector<typename L::Scalar> result;
-  for (std::size_t b = 0; b < level_set.band().blocks(); ++b) {
-    for (const auto phi : level_set.band().values().block(b)) result.push_back(phi);
-  }
-  return result;
-}
-
 }  // namespace
 
 // The error of the interpolant's zero set, h^(p + 1), everywhere in the band: closest points propagate, errors do not.
@@ -57,7 +41,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(distance_from_bad_scaling_has_the_order_of_the_ker
   double coarse = 0.0;
   for (const std::ptrdiff_t cells : {24, 48, 96}) {
     if (D == 3 && cells > 50) continue;
-    const Sphere<D> exact = sphere<D>();
+    const Sphere<D> exact = scenes::sphere_aside<D>();
     const LevelSet<typename C::Reinit, D> level_set(lattice<D>(cells),
                                                     [&](const auto& x) { return exact(x) * scenes::tenfold<D>(x); });
     const double error = distance_error(level_set.band(), exact, 5.9) / static_cast<double>(cells);
@@ -70,31 +54,31 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(distance_from_bad_scaling_has_the_order_of_the_ker
 // The values know the distance to a few units of the fifth differences, and what they cannot tell apart stays.
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_distance_stays_as_it_is_to_the_last_bit, C, Cases) {
   constexpr int D = C::dimension;
-  const Sphere<D> exact = sphere<D>();
+  const Sphere<D> exact = scenes::sphere_aside<D>();
   LevelSet<typename C::Reinit, D> level_set(lattice<D>(D == 2 ? 64 : 32), exact);
   BOOST_TEST(distance_error(level_set.band(), exact, 3.0) < 1e-13);
-  const auto before = values(level_set);
+  const auto before = scenes::values(level_set);
   for (int call = 0; call < 3; ++call) level_set.reinitialise();
-  BOOST_TEST((before == values(level_set)));
+  BOOST_TEST((before == scenes::values(level_set)));
 }
 
 BOOST_AUTO_TEST_CASE(what_a_call_made_a_thousand_calls_do_not_move) {
-  const Sphere<2> exact = sphere<2>();
+  const Sphere<2> exact = scenes::sphere_aside<2>();
   LevelSet<ClosestPoint, 2> level_set(lattice<2>(32), [&](const auto& x) { return exact(x) * scenes::tenfold<2>(x); });
-  const auto before = values(level_set);
+  const auto before = scenes::values(level_set);
   for (int call = 0; call < 1000; ++call) level_set.reinitialise();
   double drift = 0.0;
-  const auto after = values(level_set);
+  const auto after = scenes::values(level_set);
   BOOST_REQUIRE(after.size() == before.size());
   for (std::size_t i = 0; i < after.size(); ++i) drift = std::max(drift, std::abs(after[i] - before[i]));
   // The second call corrects what the first left off at a few nodes, within the fifth-order error; then all stands.
   BOOST_TEST(drift * 32 < 1e-3);
   level_set.reinitialise();
-  BOOST_TEST((after == values(level_set)));
+  BOOST_TEST((after == scenes::values(level_set)));
 }
 
 BOOST_AUTO_TEST_CASE(single_precision_is_right_to_round_off) {
-  const Sphere<3> exact = sphere<3>();
+  const Sphere<3> exact = scenes::sphere_aside<3>();
   const LevelSet<ClosestPoint, 3, float> level_set(lattice<3>(32),
                                                    [&](const auto& x) { return exact(x) * scenes::tenfold<3>(x); });
   const LevelSet<ClosestPoint, 3, double> wide(lattice<3>(32),
@@ -105,11 +89,11 @@ BOOST_AUTO_TEST_CASE(single_precision_is_right_to_round_off) {
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_change_a_bit) {
-  const auto f = [](const Vec<3>& x) { return sphere<3>()(x) * scenes::tenfold<3>(x); };
+  const auto f = [](const Vec<3>& x) { return scenes::sphere_aside<3>()(x) * scenes::tenfold<3>(x); };
   const LevelSet<ClosestPoint, 3> one(lattice<3>(32), f, {}, Serial{});
   for (const int threads : {2, 3}) {
     const LevelSet<ClosestPoint, 3> several(lattice<3>(32), f, {}, OpenMP{threads});
-    BOOST_TEST((values(one) == values(several)));
+    BOOST_TEST((scenes::values(one) == scenes::values(several)));
   }
 }
 

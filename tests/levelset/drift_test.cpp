@@ -23,23 +23,6 @@ struct Case {
 };
 using Cases = std::tuple<Case<2, double>, Case<3, double>, Case<2, float>, Case<3, float>>;
 
-template <int D>
-Sphere<D> sphere() {
-  Sphere<D> sphere;
-  sphere.centre[0] += 0.013;
-  sphere.centre[1] -= 0.007;
-  return sphere;
-}
-
-template <class L>
-std::vector<typename L::Scalar> values(const L& level_set) {
-  std::vector<typename L::Scalar> result;
-  for (std::size_t b = 0; b < level_set.band().blocks(); ++b) {
-    for (const auto phi : level_set.band().values().block(b)) result.push_back(phi);
-  }
-  return result;
-}
-
 /// Largest |exact| over the points of the interface, in spacings.
 template <class L, class F>
 double displacement(const L& level_set, F&& exact, bool projected = true) {
@@ -55,17 +38,17 @@ double displacement(const L& level_set, F&& exact, bool projected = true) {
 BOOST_AUTO_TEST_CASE_TEMPLATE(distances_are_a_fixed_point, C, Cases) {
   constexpr int D = C::dimension;
   const auto lattice = Lattice<D>::bounded_box(Box<D>::cube(), D == 2 ? 48 : 28);
-  LevelSet<ClosestPoint, D, typename C::Scalar> level_set(lattice, sphere<D>());
-  const auto before = values(level_set);
+  LevelSet<ClosestPoint, D, typename C::Scalar> level_set(lattice, scenes::sphere_aside<D>());
+  const auto before = scenes::values(level_set);
   for (int call = 0; call < 20; ++call) level_set.reinitialise();
-  BOOST_TEST((values(level_set) == before));
+  BOOST_TEST((scenes::values(level_set) == before));
 }
 
 // What is no distance at first comes to rest, within what the first call is off by; 1e-4 of the volume and 0.01
 // spacings are asked for.
 BOOST_AUTO_TEST_CASE_TEMPLATE(bad_scaling_comes_to_rest, C, Cases) {
   constexpr int D = C::dimension;
-  const Sphere<D> exact = sphere<D>();
+  const Sphere<D> exact = scenes::sphere_aside<D>();
   const auto lattice = Lattice<D>::bounded_box(Box<D>::cube(), D == 2 ? 64 : 32);
   LevelSet<ClosestPoint, D, typename C::Scalar> level_set(
       lattice, [&](const auto& x) { return exact(x) * scenes::tenfold<D>(x); });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <cambium/levelset/level_set.hpp>
 
@@ -18,6 +19,25 @@ struct Sphere {
 
   double operator()(const cambium::Vec<D>& x) const { return cambium::norm(x - centre) - radius; }
 };
+
+/// A ball off symmetric places.
+template <int D>
+Sphere<D> sphere_aside() {
+  Sphere<D> sphere;
+  sphere.centre[0] += 0.013;
+  sphere.centre[1] -= 0.007;
+  return sphere;
+}
+
+/// All values of a band, block by block.
+template <class L>
+std::vector<typename L::Scalar> values(const L& level_set) {
+  std::vector<typename L::Scalar> result;
+  for (std::size_t b = 0; b < level_set.band().blocks(); ++b) {
+    for (const auto phi : level_set.band().values().block(b)) result.push_back(phi);
+  }
+  return result;
+}
 
 /// A positive factor that varies tenfold, for a level-set function of bad scaling.
 template <int D>

@@ -44,17 +44,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(boundary_values_make_the_sum_over_nodes, T, declty
 BOOST_AUTO_TEST_CASE_TEMPLATE(a_larger_box_changes_nothing, Which,
                               decltype(std::tuple<std::integral_constant<int, 2>, std::integral_constant<int, 3>>())) {
   constexpr int D = Which::value;
-  Index<D> cells;
-  for (int d = 0; d < D; ++d) cells[d] = 16 + 2 * d;
-  const auto lattice = support::bounded_lattice<D>(cells, 0.1);
-  const auto large = support::bounded_lattice<D>(cells * 4, 0.1);
-  const auto f = support::noise<double>(lattice, 2);
-  Field<double, D> u(lattice), f_large(large), u_large(large);
-  for (std::size_t i = 0; i < f.size(); ++i) f_large(lattice.node(i) + cells) = f[i];
-  FreeSpacePoisson<D>(lattice).solve(f, u);
-  FreeSpacePoisson<D>(large).solve(f_large, u_large);
-  double worst = 0.0;
-  for (std::size_t i = 0; i < f.size(); ++i) worst = std::max(worst, std::abs(u[i] - u_large(lattice.node(i) + cells)));
+  const double worst = support::difference_of_larger_box<FreeSpacePoisson<D>, D>(16);
   BOOST_TEST_MESSAGE("difference " << worst);
   BOOST_TEST(worst < 1e-12);
 }

@@ -7,6 +7,8 @@
 
 #include <cambium/levelset/band_builder.hpp>
 
+#include "support/ellipsoid_distance.hpp"
+
 namespace support {
 
 /// An ellipse or ellipsoid with exact distances, and functions whose zero set it is.
@@ -15,41 +17,10 @@ struct Ellipsoid {
   cambium::Vec<D> centre;
   cambium::Vec<D> semi_axes;
 
-  /// Signed distance, < 0 inside: with t > -min a^2 the root of sum (a y / (t + a^2))^2 = 1, y = x - centre, the
-  /// closest point is a^2 y / (t + a^2). Exact as far inside as the closest point is unique.
-  double distance(const cambium::Vec<D>& x) const {
-    const cambium::Vec<D> y = x - centre;
-    double low = -1e300;
-    for (int d = 0; d < D; ++d) {
-      const double a = semi_axes[d];
-      low = std::max(low, a * std::abs(y[d]) - a * a);  // a single term of the sum is 1 there
-    }
-    // Newton's method from the left of the root of a convex, falling function never passes it.
-    for (int k = 0; k < 60; ++k) {
-      double total = -1.0, slope = 0.0;
-      for (int d = 0; d < D; ++d) {
-        const double bottom = low + semi_axes[d] * semi_axes[d];
-        const double term = semi_axes[d] * y[d] / bottom;
-        total += term * term;
-        slope -= 2.0 * term * term / bottom;
-      }
-      const double next = low - total / slope;
-      if (!(next > low)) break;
-      low = next;
-    }
-    double square = 0.0;
-    for (int d = 0; d < D; ++d) {
-      const double part = low * y[d] / (low + semi_axes[d] * semi_axes[d]);
-      square += part * part;
-    }
-    return low < 0.0 ? -std::sqrt(square) : std::sqrt(square);
-  }
+  /// Signed distance, < 0 inside.
+  double distance(const cambium::Vec<D>& x) const { return ellipsoid_foot(x - centre, semi_axes).distance; }
   /// The distance times a smooth factor between 0.316 and 3.16.
-  double scaled(const cambium::Vec<D>& x) const {
-    double phase = 0.0;
-    for (int d = 0; d < D; ++d) phase += (4.0 - d) * x[d] + d;
-    return distance(x) * std::pow(10.0, 0.5 * std::sin(phase));
-  }
+  double scaled(const cambium::Vec<D>& x) const { return distance(x) * bad_scale(x); }
 };
 
 template <int D>

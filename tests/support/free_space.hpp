@@ -59,4 +59,22 @@ double largest_difference(const cambium::Field<T, D>& field, F&& exact) {
   return worst;
 }
 
+/// Largest difference between what a free-space solver gives for noise in a box and for the same noise inside a
+/// box four times as large; the box has `first_cells` + 2 d cells along axis d.
+template <class Solver, int D>
+double difference_of_larger_box(std::ptrdiff_t first_cells) {
+  cambium::Index<D> cells;
+  for (int d = 0; d < D; ++d) cells[d] = first_cells + 2 * d;
+  const auto lattice = bounded_lattice<D>(cells, 0.1);
+  const auto large = bounded_lattice<D>(cells * 4, 0.1);
+  const auto f = noise<double>(lattice, 2);
+  cambium::Field<double, D> u(lattice), f_large(large), u_large(large);
+  for (std::size_t i = 0; i < f.size(); ++i) f_large(lattice.node(i) + cells) = f[i];
+  Solver(lattice).solve(f, u);
+  Solver(large).solve(f_large, u_large);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < f.size(); ++i) worst = std::max(worst, std::abs(u[i] - u_large(lattice.node(i) + cells)));
+  return worst;
+}
+
 }  // namespace support
