@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include <cambium/levelset/closest_point_search.hpp>
+#include <cambium/levelset/closest_point_step.hpp>
 #include <cambium/levelset/reinit/cell_polynomial.hpp>
 #include <cambium/levelset/reinit/crossed_nodes.hpp>
 #include <cambium/levelset/reinit/kick_off.hpp>
@@ -35,13 +35,14 @@ class CellSearch {
     Vec<D, T> low;
     if (!enter(x, at, low)) return false;
     CellPolynomial<T, D, N> cell(patch, low);
-    T mu = std::numeric_limits<T>::quiet_NaN();
+    T mu(0);
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      Vec<D, T> step;
-      const bool found = iteration < first_order_iterations
-                             ? along_tangent(cell.template jet<1>(at - low), x - at, step)
-                             : newton(cell.template jet<2>(at - low), x - at, mu, step);
-      if (!found) return false;
+      const bool of_first_order = iteration < first_order_iterations;
+      const Jet<T, D> jet = of_first_order ? cell.template jet<1>(at - low) : cell.template jet<2>(at - low);
+      const T slope = dot(jet.gradient, jet.gradient);
+      if (!(slope > T(0))) return false;
+      if (iteration == first_order_iterations) mu = dot(x - at, jet.gradient) / slope;
+      Vec<D, T> step = of_first_order ? tangent_step(jet, x - at) : closest_point_step(jet, x - at, mu);
       const T length = norm(step);
       if (length > longest_step) step *= longest_step / length;
       at += step;
@@ -78,39 +79,6 @@ class CellSearch {
       if (!(u > -slack && u < T(1) + slack)) return true;
     }
     return false;
-  }
-  static bool along_tangent(const Jet<T, D>& jet, const Vec<D, T>& back, Vec<D, T>& step) {
-    const T slope = dot(jet.gradient, jet.gradient);
-    if (!(slope > T(0))) return false;
-    step = back - (dot(back, jet.gradient) + jet.value) / slope * jet.gradient;
-    return true;
-  }
-  /// \param mu  NaN before the first step
-  static bool newton(const Jet<T, D>& jet, const Vec<D, T>& back, T& mu, Vec<D, T>& step) {
-    const Vec<D, T>& g = jet.gradient;
-    const T slope = dot(g, g);
-    if (!(slope > T(0))) return false;
-    if (std::isnan(mu)) mu = dot(back, g) / slope;
-    std::array<Vec<D, T>, D> matrix = jet.hessian;
-    for (int d = 0; d < D; ++d) {
-      matrix[d] *= mu;
-      matrix[d][d] += T(1);
-    }
-    const SymmetricInverse<T, D> inverse(matrix);
-    if (inverse.exists()) {
-      const Vec<D, T> of_gradient = inverse(g);
-      const T through = dot(g, of_gradient);
-      if (std::abs(through) > T(0.05) * slope) {
-        const Vec<D, T> of_residual = inverse(back - mu * g);
-        const T change = (dot(g, of_residual) + jet.value) / through;
-        step = of_residual - change * of_gradient;
-        mu += change;
-        return true;
-      }
-    }
-    if (!along_tangent(jet, back, step)) return false;
-    mu = dot(back - step, g) / slope;
-    return true;
   }
 };
 
