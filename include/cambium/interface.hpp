@@ -14,4 +14,5 @@
 #include <cambium/interface/jump_mayo.hpp>
 #include <cambium/interface/jump_patch.hpp>
 #include <cambium/interface/jump_rule.hpp>
+#include <cambium/interface/neumann.hpp>
 #include <cambium/interface/side.hpp>
