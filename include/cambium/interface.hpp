@@ -3,9 +3,15 @@
 #pragma once
 
 /// \dir interface  Conditions on the interface of a level set for elliptic problems: jumps, Dirichlet values, forces
-/// spread from it. <cambium/interface/dirichlet.hpp> is to be included by name: it compiles Eigen.
+/// spread from it. <cambium/interface/dirichlet.hpp> and <cambium/interface/neumann.hpp> are to be included by name:
+/// they compile Eigen.
+#include <cambium/interface/aggregation_cycle.hpp>
+#include <cambium/interface/cell_domain.hpp>
+#include <cambium/interface/cell_geometry.hpp>
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
+#include <cambium/interface/finite_volumes.hpp>
+#include <cambium/interface/images.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
 #include <cambium/interface/jump.hpp>
 #include <cambium/interface/jump_data.hpp>
@@ -14,5 +20,4 @@
 #include <cambium/interface/jump_mayo.hpp>
 #include <cambium/interface/jump_patch.hpp>
 #include <cambium/interface/jump_rule.hpp>
-#include <cambium/interface/neumann.hpp>
 #include <cambium/interface/side.hpp>
