@@ -7,6 +7,7 @@
 #include <cambium/farfield/direct_potential.hpp>
 #include <cambium/farfield/expansion.hpp>
 #include <cambium/farfield/expansion_reach.hpp>
+#include <cambium/farfield/particle_mesh_potential.hpp>
 #include <cambium/farfield/plane_expansion.hpp>
 #include <cambium/farfield/space_expansion.hpp>
 #include <cambium/farfield/tree_potential.hpp>
