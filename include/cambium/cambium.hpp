@@ -6,6 +6,7 @@
 /// <cambium/multigrid/krylov.hpp> and <cambium/interface/dirichlet.hpp>: only their users compile Eigen. Programs link
 /// with FFTW.
 #include <cambium/core.hpp>
+#include <cambium/farfield.hpp>
 #include <cambium/interface.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>

@@ -17,6 +17,7 @@
 #include <cambium/poisson/free_space_convolution.hpp>
 #include <cambium/poisson/free_space_dirichlet.hpp>
 #include <cambium/poisson/free_space_kernels.hpp>
+#include <cambium/poisson/free_space_spectral.hpp>
 #include <cambium/poisson/lane_fft.hpp>
 #include <cambium/poisson/lattice_green.hpp>
 #include <cambium/poisson/line_transform.hpp>

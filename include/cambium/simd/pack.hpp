@@ -137,6 +137,25 @@ class Pack {
       }
     });
   }
+  friend Pack sqrt(const Pack& a) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::sqrt(a.part_[i]));
+      } else {
+        return std::sqrt(a.part_[i]);
+      }
+    });
+  }
+  /// Natural logarithm.
+  friend Pack log(const Pack& a) {
+    return build([&](std::size_t i) {
+      if constexpr (width > 1) {
+        return Part(xsimd::log(a.part_[i]));
+      } else {
+        return std::log(a.part_[i]);
+      }
+    });
+  }
   friend Pack min(const Pack& a, const Pack& b) {
     return build([&](std::size_t i) {
       if constexpr (width > 1) {
