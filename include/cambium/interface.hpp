@@ -3,7 +3,8 @@
 #pragma once
 
 /// \dir interface  Conditions on the interface of a level set for elliptic problems: jumps, Dirichlet values, forces
-/// spread from it. <cambium/interface/dirichlet.hpp> is to be included by name: it compiles Eigen.
+/// spread from it. <cambium/interface/dirichlet.hpp> and <cambium/interface/right_hand_side_gmres.hpp> are to be
+/// included by name: they compile Eigen.
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
