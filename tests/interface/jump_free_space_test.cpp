@@ -9,7 +9,7 @@
 #include <cambium/levelset.hpp>
 #include <cambium/poisson.hpp>
 
-#include "interface/fed_ball.hpp"
+#include "support/fed_ball.hpp"
 #include "support/order.hpp"
 
 using namespace cambium;
@@ -23,7 +23,7 @@ struct Errors {
 
 template <int D>
 Errors errors(std::ptrdiff_t cells) {
-  using Case = scenes::FedBall<D>;
+  using Case = support::FedBall<D>;
   const auto lattice = Case::lattice(cells);
   const LevelSet<ClosestPoint, D> level_set(lattice, Ball<D>(Case::centre(), Case::radius));
   const auto& band = level_set.band();

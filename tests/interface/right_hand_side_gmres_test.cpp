@@ -13,7 +13,7 @@
 #include <cambium/levelset.hpp>
 #include <cambium/poisson.hpp>
 
-#include "interface/fed_ball.hpp"
+#include "support/fed_ball.hpp"
 #include "support/order.hpp"
 
 using namespace cambium;
@@ -38,7 +38,7 @@ struct Errors {
 /// The right-hand side and what is read from a solution.
 template <int D>
 struct Scene {
-  using Case = scenes::FedBall<D>;
+  using Case = support::FedBall<D>;
   Lattice<D> lattice;
   LevelSet<ClosestPoint, D> level_set;
   Field<double, D> f, p;
@@ -76,7 +76,7 @@ struct Scene {
 template <class J, class Solver>
 Errors by_right_hand_side(Scene<J::dimension>& scene, Solver&& poisson, double slope) {
   constexpr int D = J::dimension;
-  using Case = scenes::FedBall<D>;
+  using Case = support::FedBall<D>;
   J jump(scene.lattice);
   jump.attach(scene.level_set.band(), scene.level_set.method().points());
   jump.set([](const Vec<D>&) { return -Case::surface_pressure; }, [=](const Vec<D>&) { return slope; },
@@ -98,7 +98,7 @@ Errors by_dirichlet(Scene<D>& scene) {
   Dirichlet<D> inside(band);
   Field<double, D, Sparse> slope(scene.lattice);
   const SolveReport report = inside.solve(
-      scene.f, [](const Vec<D>&) { return scenes::FedBall<D>::surface_pressure; }, scene.p);
+      scene.f, [](const Vec<D>&) { return support::FedBall<D>::surface_pressure; }, scene.p);
   inside.normal_derivative(band, scene.level_set.method().points(), scene.p, slope);
   Errors result = scene.errors([&](std::size_t b, std::size_t i, const Vec<D>&) { return -slope.block(b)[i]; });
   result.iterations = report.iterations;
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(second_order_if_the_velocity_were_known) {
   for (int k = 0; k < 2; ++k) {
     Scene<2> scene(64 << k);
     known[k] =
-        by_right_hand_side<Jump<2>>(scene, BoxPoisson<2>(scene.lattice, values<2>()), scenes::FedBall<2>::speed());
+        by_right_hand_side<Jump<2>>(scene, BoxPoisson<2>(scene.lattice, values<2>()), support::FedBall<2>::speed());
   }
   report("right-hand side, [dp/dn] known", known[0], known[1]);
   BOOST_TEST(support::observed_order(known[0].p, known[1].p) > 1.9);  // 2.01, and 2.03

@@ -7,7 +7,7 @@
 #include <cambium/core/lattice.hpp>
 #include <cambium/core/vec.hpp>
 
-namespace scenes {
+namespace support {
 
 /// A ball of tissue of radius R fed from outside: Lap c = c inside, c = 1 outside; -Lap p = G (c - A) inside;
 /// p_in - p_out = gamma kappa. It grows with V = -dp/dn, the same with p = 0 outside and in free space, where dp/dn
@@ -37,6 +37,12 @@ struct FedBall {
     const Vec y = x - centre();
     return surface_pressure + growth * (1.0 - nutrient(x)) - growth * decay * (radius * radius - dot(y, y)) / (2.0 * D);
   }
+  /// p in free space, where -dp/dn does not jump; in the plane but for a constant.
+  static double free_pressure(bool inside, const Vec& x) {
+    const double r = norm(x - centre());
+    const auto beyond = [](double q) { return D == 2 ? -std::log(q / radius) : radius / q; };
+    return inside ? pressure(x) + speed() * radius * beyond(radius) : speed() * radius * beyond(r);
+  }
   /// R^{1 - D} times the integral of G (c - A) r^{D - 1} from 0 to R.
   static double speed() {
     const double fed = D == 2 ? std::cyl_bessel_i(1.0, radius) / std::cyl_bessel_i(0.0, radius)
@@ -45,4 +51,4 @@ struct FedBall {
   }
 };
 
-}  // namespace scenes
+}  // namespace support
