@@ -1,25 +1,36 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: The Cambium authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws what examples/laplace_young wrote with --fields and --json: draw_laplace_young.py FIELDS JSON PICTURE"""
+"""Draws what examples/laplace_young wrote with --json, and with --fields.
 
+    draw_laplace_young.py FIELDS JSON PICTURE    pressure, spurious velocity and errors of one run
+    draw_laplace_young.py RAW.json               keeps the figures as docs/charts/laplace_young.json and draws errors
+                                                 against R / h, docs/charts/laplace_young.{svg,png}
+    draw_laplace_young.py                        the same from docs/charts/laplace_young.json
+"""
+
+import json
 import sys
+from pathlib import Path
 
 import numpy as np
 
+import bench_report
 from pictures import load, plt, read_runs, save, show_field
 
+KEPT = bench_report.CHARTS / "laplace_young.json"
+RADIUS = 0.25
 
 def show_errors(axes, runs, jump, spread, title, label):
     for dimension, marker in ((2, "o"), (3, "s")):
         chosen = [run for run in runs if run["dimension"] == dimension]
-        cells = [run["cells"] for run in chosen]
+        resolution = [RADIUS * run["cells"] for run in chosen]
         for key, colour, name in ((jump, "tab:blue", "jump"), (spread, "tab:red", "immersed boundary")):
-            axes.loglog(cells, [abs(run[key]) for run in chosen], marker=marker, color=colour,
+            axes.loglog(resolution, [abs(run[key]) for run in chosen], marker=marker, color=colour,
                         label=f"{name}, {dimension}D")
-    axes.set_xticks(cells, [f"{n}" for n in cells])
+    axes.set_xticks(resolution, [f"{n:g}" for n in resolution])
     axes.minorticks_off()
-    axes.set(title=title, xlabel="cells along an axis (4 radii)", ylabel=label)
+    axes.set(title=title, xlabel="R / h", ylabel=label)
     axes.grid(True, alpha=0.3)
     axes.legend()
 
@@ -39,11 +50,29 @@ def main(folder, table, picture):
     axes[0, 0].grid(True, alpha=0.3)
     axes[0, 0].legend()
     show_field(axes[0, 1], speed, "spurious velocity of the immersed boundary", cmap="magma")
-    show_errors(axes[1, 0], runs, "pressure_error_jump", "pressure_error_spread", "jump of the pressure",
-                "relative error")
-    show_errors(axes[1, 1], runs, "spurious_jump", "spurious_spread", "spurious velocity", "largest, gamma / R^2 = 16")
+    show_both(axes[1], runs)
     save(figure, picture)
 
 
+def show_both(axes, runs):
+    show_errors(axes[0], runs, "pressure_error_jump", "pressure_error_spread", "jump of the pressure",
+                "relative error")
+    show_errors(axes[1], runs, "spurious_jump", "spurious_spread", "spurious velocity", "largest, gamma / R^2 = 16")
+
+
+def chart(raw=KEPT):
+    runs = read_runs(raw)
+    bench_report.CHARTS.mkdir(parents=True, exist_ok=True)
+    Path(KEPT).write_text(json.dumps({"runs": runs}, indent=1) + "\n", encoding="utf-8")
+    figure, axes = plt.subplots(1, 2, figsize=(10.0, 4.5))
+    show_both(axes, runs)
+    bench_report.save(figure, "laplace_young")
+
+
 if __name__ == "__main__":
-    main(*sys.argv[1:])
+    if len(sys.argv) in (1, 2):
+        chart(*sys.argv[1:])
+    elif len(sys.argv) == 4:
+        main(*sys.argv[1:])
+    else:
+        sys.exit(__doc__)

@@ -3,8 +3,8 @@
 #pragma once
 
 /// \dir interface  Conditions on the interface of a level set for elliptic problems: jumps, Dirichlet values, forces
-/// spread from it. <cambium/interface/dirichlet.hpp> and <cambium/interface/neumann.hpp> are to be included by name:
-/// they compile Eigen.
+/// spread from it, fluxes. Those that compile Eigen are to be included by name: <cambium/interface/dirichlet.hpp>,
+/// <cambium/interface/neumann.hpp> and <cambium/interface/right_hand_side_gmres.hpp>.
 #include <cambium/interface/aggregation_cycle.hpp>
 #include <cambium/interface/cell_domain.hpp>
 #include <cambium/interface/cell_geometry.hpp>

@@ -31,8 +31,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(second_order_with_its_gradient_at_the_interface, C
 }
 
 BOOST_AUTO_TEST_CASE(nutrient_of_a_disk) {
-  const Errors fine = scenes::check_nutrient<2>(48);
-  BOOST_CHECK_LT(fine.derivative, 0.0015);  // of I1(2)/I0(2) = 0.698, h = 1/16: measured 0.00106
+  const Errors fine = scenes::check_nutrient<2>(128);
+  BOOST_CHECK_LT(fine.derivative, 1e-4);  // of I1(2)/I0(2) = 0.698, h = 3/128: measured 5.4e-5
 }
 
 BOOST_AUTO_TEST_CASE(errors_do_not_depend_on_how_the_lattice_cuts) {
@@ -49,5 +49,5 @@ BOOST_AUTO_TEST_CASE(errors_do_not_depend_on_how_the_lattice_cuts) {
   BOOST_TEST_MESSAGE("c " << median(values) << " at most " << std::ranges::max(values) << "  dc/dn "
                           << median(derivatives) << " at most " << std::ranges::max(derivatives));
   BOOST_CHECK_LT(std::ranges::max(values), 3.0 * median(values));
-  BOOST_CHECK_LT(std::ranges::max(derivatives), 3.0 * median(derivatives));
+  BOOST_CHECK_LT(std::ranges::max(derivatives), 1.5 * median(derivatives));  // measured 1.12
 }

@@ -9,35 +9,12 @@
 #include <cambium/levelset.hpp>
 #include <cambium/poisson.hpp>
 
+#include "support/fed_ball.hpp"
 #include "support/order.hpp"
 
 using namespace cambium;
 
 namespace {
-
-constexpr double radius = 2.0;
-constexpr double growth = 20.0;  // G
-constexpr double decay = 0.5;    // A
-constexpr double tension = 1.0;  // gamma
-
-/// A ball of tissue fed from outside: Lap c = c inside, c = 1 outside; -Lap p = G (c - A) inside, 0 outside, in free
-/// space; p_in - p_out = gamma kappa, dp/dn without a jump. It grows with V = -dp/dn.
-template <int D>
-struct FedBall {
-  static Vec<D> centre() { return Vec<D>::constant(0.02) + Vec<D>::unit(0, 0.05); }
-  /// Regular radial solution of Lap c = c.
-  static double regular(double r) {
-    if constexpr (D == 2) return std::cyl_bessel_i(0.0, r);
-    return r < 1e-3 ? 1.0 + r * r / 6.0 : std::sinh(r) / r;
-  }
-  static double source(const Vec<D>& x) { return growth * (regular(norm(x - centre())) / regular(radius) - decay); }
-  /// R^{1 - D} times the integral of G (c - A) r^{D - 1} from 0 to R.
-  static double speed() {
-    const double fed = D == 2 ? std::cyl_bessel_i(1.0, radius) / std::cyl_bessel_i(0.0, radius)
-                              : 1.0 / std::tanh(radius) - 1.0 / radius;
-    return growth * (fed - decay * radius / D);
-  }
-};
 
 struct Errors {
   double speed = 0.0;  ///< of V at the interface from either side, relative, largest
@@ -46,9 +23,9 @@ struct Errors {
 
 template <int D>
 Errors errors(std::ptrdiff_t cells) {
-  using Case = FedBall<D>;
-  const auto lattice = Lattice<D>::bounded_box(Box<D>{Vec<D>::constant(-3.0), Vec<D>::constant(3.0)}, cells);
-  const LevelSet<ClosestPoint, D> level_set(lattice, Ball<D>(Case::centre(), radius));
+  using Case = support::FedBall<D>;
+  const auto lattice = Case::lattice(cells);
+  const LevelSet<ClosestPoint, D> level_set(lattice, Ball<D>(Case::centre(), Case::radius));
   const auto& band = level_set.band();
   Field<double, D> f(lattice), p(lattice);
   for (std::size_t i = 0; i < f.size(); ++i) {
@@ -57,8 +34,8 @@ Errors errors(std::ptrdiff_t cells) {
   }
   Jump<D> jump(lattice);
   jump.attach(band, level_set.method().points());
-  const double pressure = tension * (D - 1) / radius;
-  jump.set([=](const Vec<D>&) { return -pressure; }, NoJump{}, [](const Vec<D>& x) { return -Case::source(x); });
+  constexpr double pressure = Case::surface_pressure;
+  jump.set([](const Vec<D>&) { return -pressure; }, NoJump{}, [](const Vec<D>& x) { return -Case::source(x); });
   jump.correct(f);
   FreeSpacePoisson<D>(lattice).solve(f, p);
   InterfaceSides<D> sides(lattice);

@@ -112,12 +112,13 @@ cambium::LevelSet<cambium::ClosestPoint, D> level_set_of(const AnyShape<D>& shap
   return {cambium::Lattice<D>::periodic_box(cambium::Box<D>::cube(), cells), shape};
 }
 
-/// Solves for Solution with a jump of type J and the stencil of Symbol.
-template <class J, class Solution, class Symbol = cambium::SecondOrder>
-JumpErrors solve_jump(const AnyShape<J::dimension>& shape, std::ptrdiff_t cells) {
+/// Solves for Solution with a jump of type J and the stencil of Symbol, by solve(f, p). \param up_to_constant  true if
+/// the solver finds p but for a constant
+template <class J, class Solution, class Symbol, class Solve>
+JumpErrors solve_jump_with(const AnyShape<J::dimension>& shape, const cambium::Lattice<J::dimension>& lattice,
+                           bool up_to_constant, Solve&& solve) {
   constexpr int D = J::dimension;
-  const auto level_set = level_set_of<D>(shape, cells);
-  const auto& lattice = level_set.lattice();
+  const cambium::LevelSet<cambium::ClosestPoint, D> level_set(lattice, shape);
   const auto& band = level_set.band();
   J jump(lattice);
   jump.attach(band, level_set.method().points());
@@ -132,10 +133,9 @@ JumpErrors solve_jump(const AnyShape<J::dimension>& shape, std::ptrdiff_t cells)
     f[i] = Solution::source(band(lattice.node(i)) < 0.0, lattice.position(lattice.node(i)));
   }
   jump.template correct<Symbol>(f);
-  cambium::PeriodicPoisson<D, Symbol> poisson(lattice, {.mean = cambium::MeanPart::subtract});
-  poisson.solve(f, p);
+  solve(f, p);
   double mean = 0.0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
+  for (std::size_t i = 0; i < p.size() && up_to_constant; ++i) {
     mean += Solution::value(band(lattice.node(i)) < 0.0, lattice.position(lattice.node(i))) - p[i];
   }
   for (double& value : p.values()) value += mean / static_cast<double>(p.size());
@@ -165,6 +165,16 @@ JumpErrors solve_jump(const AnyShape<J::dimension>& shape, std::ptrdiff_t cells)
     }
   }
   return errors;
+}
+
+/// The same in a periodic box.
+template <class J, class Solution, class Symbol = cambium::SecondOrder>
+JumpErrors solve_jump(const AnyShape<J::dimension>& shape, std::ptrdiff_t cells) {
+  constexpr int D = J::dimension;
+  const auto lattice = cambium::Lattice<D>::periodic_box(cambium::Box<D>::cube(), cells);
+  return solve_jump_with<J, Solution, Symbol>(shape, lattice, true, [&](const auto& f, auto& p) {
+    cambium::PeriodicPoisson<D, Symbol>(lattice, {.mean = cambium::MeanPart::subtract}).solve(f, p);
+  });
 }
 
 }  // namespace scenes

@@ -279,6 +279,16 @@ BOOST_AUTO_TEST_CASE(unbalanced_sources_are_refused_by_how_much_or_projected) {
   BOOST_TEST(std::abs(u[7]) < 1e-13);
 }
 
+// 1e-12 u - Lap u = 1 has the solution 1e12: nothing is refused, and nothing is lost but round-off of that.
+BOOST_AUTO_TEST_CASE(nearly_singular_neumann_problem_has_the_mean_of_its_source_over_the_shift) {
+  const Sides<2> sides{N, P};
+  const auto lattice = lattice_for<2>(sides);
+  const Field<double, 2> f(lattice, 1.0);
+  Field<double, 2> u(lattice);
+  BoxPoisson<2>(lattice, sides, {.shift = 1e-12}).solve(f, u);
+  for (const double value : u.values()) BOOST_TEST_REQUIRE(std::abs(1e-12 * value - 1.0) < 1e-12);
+}
+
 BOOST_AUTO_TEST_CASE(bad_input_is_refused_and_changes_nothing) {
   const Sides<2> sides{V, N};
   const auto lattice = lattice_for<2>(sides);

@@ -37,9 +37,9 @@ struct LinePoints {
 
 /// Continues a field to the other side of the interface: along each line of the lattice that crosses it, the polynomial
 /// of degree `Degree` through the value on the interface and those of nodes of the domain. A node that several lines
-/// reach takes their mean, weighted by the inverse fourth power of the distance to the crossing. Nodes near the
-/// interface that no such line reaches, beside sharp tips, take the quadratic (or linear) continuation of nodes that
-/// have values.
+/// reach takes their mean, weighted by the inverse fourth power of the distance to the crossing; lines too short for
+/// that degree count where there is no other. Nodes near the interface that no such line reaches, beside sharp tips,
+/// take the quadratic (or linear) continuation of nodes that have values.
 template <int D, int Degree = 3>
 class Continuation {
  public:
@@ -49,6 +49,7 @@ class Continuation {
     Index<D> node;
     double weight;
     double sum;
+    bool whole;  ///< by polynomials of the full degree
   };
 
   /// Writes the values into x, and marks their nodes as `continued`; forget() undoes that.
@@ -67,8 +68,13 @@ class Continuation {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) {
       if (kept > 0 && values_[kept - 1].at == values_[i].at) {
-        values_[kept - 1].weight += values_[i].weight;
-        values_[kept - 1].sum += values_[i].sum;
+        Value& value = values_[kept - 1];
+        if (value.whole == values_[i].whole) {
+          value.weight += values_[i].weight;
+          value.sum += values_[i].sum;
+        } else if (values_[i].whole) {
+          value = values_[i];
+        }
       } else {
         values_[kept++] = values_[i];
       }
@@ -108,7 +114,8 @@ class Continuation {
       node = next;
       const double distance = static_cast<double>(m) - crossing + 0.1;
       const double weight = 1.0 / (distance * distance * distance * distance);
-      values_.push_back({domain.grid.at(node), node, weight, weight * line.at(static_cast<double>(m))});
+      values_.push_back(
+          {domain.grid.at(node), node, weight, weight * line.at(static_cast<double>(m)), line.count > Degree});
     }
   }
   LinePoints points(const CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i,
@@ -171,7 +178,7 @@ class Continuation {
   /// Mean over the lines with most values. \return false if there is none
   bool extrapolate(const CutDomain<D>& domain, const double* x, const Index<D>& node) {
     int most = 1;
-    Value value{domain.grid.at(node), node, 0.0, 0.0};
+    Value value{domain.grid.at(node), node, 0.0, 0.0, false};
     for (std::size_t k = 0; k < 2 * D; ++k) {
       std::array<double, 3> v{};
       int count = 0;

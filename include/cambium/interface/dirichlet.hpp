@@ -322,8 +322,52 @@ class Dirichlet {
       detail::for_each_closest_point(points, band, b, band, patch, at, [&](std::size_t i) { values[i] = B(0); });
     });
   }
-  /// Centred differences, interpolated linearly. \param place  in spacings from the first node of the lattice
+  /// \param place  in spacings from the first node of the lattice
   Vec<D> gradient_at(const Vec<D>& place) const {
+    Vec<D> gradient;
+    return of_cubics(place, gradient) ? gradient : of_differences(place);
+  }
+  /// Gradient of the product of cubic polynomials through the 4^D nodes around a place. \return false if one of them
+  /// has no value
+  bool of_cubics(const Vec<D>& place, Vec<D>& gradient) const {
+    const auto& domain = domains_.front();
+    std::array<std::array<double, 4>, D> value, slope;
+    Index<D> first;
+    for (int d = 0; d < D; ++d) {
+      first[d] = static_cast<std::ptrdiff_t>(std::floor(place[d])) - 1;
+      if (!lattice_.periodic(d) && (first[d] < 0 || first[d] + 3 >= lattice_.nodes()[d])) return false;
+      const auto axis = static_cast<std::size_t>(d);
+      cubic_weights(place[d] - static_cast<double>(first[d] + 1), value[axis], slope[axis]);
+    }
+    gradient = {};
+    for (std::size_t k = 0; k < std::size_t{1} << (2 * D); ++k) {
+      Index<D> node;
+      for (int d = 0; d < D; ++d) {
+        node[d] = lattice_.wrap(d, first[d] + static_cast<std::ptrdiff_t>(k >> (2 * d) & 3));
+      }
+      const std::size_t at = domain.grid.at(node);
+      if (domain.kind[at] == detail::beyond) return false;
+      for (int d = 0; d < D; ++d) {
+        double weight = finest_.x[at];
+        for (int e = 0; e < D; ++e) {
+          const auto axis = static_cast<std::size_t>(e);
+          weight *= (e == d ? slope : value)[axis][k >> (2 * e) & 3];
+        }
+        gradient[d] += weight;
+      }
+    }
+    gradient /= lattice_.spacing();
+    return true;
+  }
+  /// Those of the values at -1, 0, 1, 2 in the cubic polynomial through them at t, and in its derivative.
+  static void cubic_weights(double t, std::array<double, 4>& value, std::array<double, 4>& slope) {
+    value = {-t * (t - 1.0) * (t - 2.0) / 6.0, (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+             -(t + 1.0) * t * (t - 2.0) / 2.0, (t + 1.0) * t * (t - 1.0) / 6.0};
+    slope = {-(3.0 * t * t - 6.0 * t + 2.0) / 6.0, (3.0 * t * t - 4.0 * t - 1.0) / 2.0,
+             -(3.0 * t * t - 2.0 * t - 2.0) / 2.0, (3.0 * t * t - 1.0) / 6.0};
+  }
+  /// Centred differences, interpolated linearly, which need fewer nodes.
+  Vec<D> of_differences(const Vec<D>& place) const {
     const auto& domain = domains_.front();
     Vec<D> gradient;
     Index<D> first;
