@@ -339,22 +339,34 @@ class Dirichlet {
       const auto axis = static_cast<std::size_t>(d);
       cubic_weights(place[d] - static_cast<double>(first[d] + 1), value[axis], slope[axis]);
     }
+    std::array<std::ptrdiff_t, 4> along;
+    for (std::size_t i = 0; i < 4; ++i) {
+      along[i] = lattice_.wrap(0, first[0] + static_cast<std::ptrdiff_t>(i)) - lattice_.wrap(0, first[0]);
+    }
     gradient = {};
-    for (std::size_t k = 0; k < std::size_t{1} << (2 * D); ++k) {
-      Index<D> node;
-      for (int d = 0; d < D; ++d) {
-        node[d] = lattice_.wrap(d, first[d] + static_cast<std::ptrdiff_t>(k >> (2 * d) & 3));
-      }
-      const std::size_t at = domain.grid.at(node);
-      if (domain.kind[at] == detail::beyond) return false;
-      for (int d = 0; d < D; ++d) {
-        double weight = finest_.x[at];
+    for (std::size_t k = 0; k < std::size_t{1} << (2 * (D - 1)); ++k) {
+      Index<D> node = first;
+      node[0] = lattice_.wrap(0, first[0]);
+      std::array<double, D> weight;
+      weight.fill(1.0);
+      for (int d = 1; d < D; ++d) {
+        const std::size_t step = k >> (2 * (d - 1)) & 3;
+        node[d] = lattice_.wrap(d, first[d] + static_cast<std::ptrdiff_t>(step));
         for (int e = 0; e < D; ++e) {
-          const auto axis = static_cast<std::size_t>(e);
-          weight *= (e == d ? slope : value)[axis][k >> (2 * e) & 3];
+          const auto axis = static_cast<std::size_t>(d);
+          weight[static_cast<std::size_t>(e)] *= (e == d ? slope : value)[axis][step];
         }
-        gradient[d] += weight;
       }
+      const std::size_t row = domain.grid.at(node);
+      double sum = 0.0;
+      double change = 0.0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t at = row + static_cast<std::size_t>(along[i]);
+        if (domain.kind[at] == detail::beyond) return false;
+        sum += value[0][i] * finest_.x[at];
+        change += slope[0][i] * finest_.x[at];
+      }
+      for (int d = 0; d < D; ++d) gradient[d] += weight[static_cast<std::size_t>(d)] * (d == 0 ? change : sum);
     }
     gradient /= lattice_.spacing();
     return true;
