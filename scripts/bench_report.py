@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the scripts that draw benchmarks have in common: where charts go, how they look, tables in docs/choosing.md."""
 
+import json
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -36,6 +37,23 @@ def replace_between(name, lines, path=CHOOSING):
     before, rest = text.split(begin)
     after = rest.split(end)[1]
     path.write_text(before + begin + "\n\n" + "\n".join(lines) + "\n\n" + end + after, encoding="utf-8")
+
+
+def keep(name, raw=None):
+    """The numbers of docs/charts/NAME.json, into which those of another file go first if one is named."""
+    kept = CHARTS / f"{name}.json"
+    data = json.loads(pathlib.Path(raw or kept).read_text(encoding="utf-8"))
+    CHARTS.mkdir(parents=True, exist_ok=True)
+    kept.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+    return data
+
+
+def dress_panel(panel, title):
+    """A panel of error against time of one thread."""
+    panel.set_title(title, fontsize=10)
+    panel.set_xlabel("time of one thread, s")
+    panel.grid(True, which="major", color="#e0e0e0", linewidth=0.6)
+    panel.spines[["top", "right"]].set_visible(False)
 
 
 def save(figure, name):

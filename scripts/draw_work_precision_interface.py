@@ -8,7 +8,6 @@
     draw_work_precision_interface.py              the same from docs/charts/work_precision_interface.json
 """
 
-import json
 import sys
 
 import matplotlib
@@ -18,7 +17,6 @@ import matplotlib.pyplot as plt
 
 import bench_report
 
-KEPT = bench_report.CHARTS / "work_precision_interface.json"
 STYLE = {
     "Jump": ("o", "#0072B2"),
     "JumpMayo": ("s", "#E69F00"),
@@ -34,17 +32,11 @@ def draw_panel(panel, runs, title):
                      label=f"{method}: p")
         panel.loglog(seconds, [run["error_of_speed"] for run in line], marker=marker, color=colour, markersize=5,
                      linewidth=1.2, linestyle="--", markerfacecolor="white", label=f"{method}: velocity at the interface")
-    panel.set_title(title, fontsize=10)
-    panel.set_xlabel("time of one thread, s")
-    panel.grid(True, which="major", color="#e0e0e0", linewidth=0.6)
-    panel.spines[["top", "right"]].set_visible(False)
+    bench_report.dress_panel(panel, title)
 
 
-def main(raw=KEPT):
-    with open(raw, encoding="utf-8") as file:
-        data = json.load(file)
-    bench_report.CHARTS.mkdir(parents=True, exist_ok=True)
-    KEPT.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+def main(raw=None):
+    data = bench_report.keep("work_precision_interface", raw)
     figure, panels = plt.subplots(1, 2, figsize=(10.0, 5.2), sharey=True)
     for panel, dimension in zip(panels, (2, 3)):
         runs = [run for run in data["runs"] if run["dimension"] == dimension]

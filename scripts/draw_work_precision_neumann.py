@@ -9,7 +9,6 @@
     draw_work_precision_neumann.py              the same from docs/charts/work_precision_neumann.json
 """
 
-import json
 import sys
 
 import matplotlib
@@ -19,7 +18,6 @@ import matplotlib.pyplot as plt
 
 import bench_report
 
-KEPT = bench_report.CHARTS / "work_precision_neumann.json"
 STYLE = {
     "FaceCentroid": ("o", "#0072B2"),
     "FaceCentre": ("s", "#009E73"),
@@ -32,17 +30,11 @@ def draw_panel(panel, runs, title):
         line = sorted((run for run in runs if run["method"] == method), key=lambda run: run["cells"])
         panel.loglog([run["cpu_seconds"] for run in line], [run["error"] for run in line], marker=marker, color=colour,
                      markersize=5, linewidth=1.2, label=method)
-    panel.set_title(title, fontsize=10)
-    panel.set_xlabel("time of one thread, s")
-    panel.grid(True, which="major", color="#e0e0e0", linewidth=0.6)
-    panel.spines[["top", "right"]].set_visible(False)
+    bench_report.dress_panel(panel, title)
 
 
-def main(raw=KEPT):
-    with open(raw, encoding="utf-8") as file:
-        data = json.load(file)
-    bench_report.CHARTS.mkdir(parents=True, exist_ok=True)
-    KEPT.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+def main(raw=None):
+    data = bench_report.keep("work_precision_neumann", raw)
     figure, panels = plt.subplots(1, 2, figsize=(9.0, 4.2), sharey=True)
     for panel, dimension in zip(panels, (2, 3)):
         draw_panel(panel, [run for run in data["runs"] if run["dimension"] == dimension],
