@@ -90,24 +90,22 @@ class Neumann {
 
   /// \param f  right-hand side, read at unknowns
   /// \param q  q(x) is du/dn at the point x of the interface
-  /// \param u  holds the first guess, becomes the solution at the unknowns and stays as it is at all other nodes; where
-  /// s
-  ///           = 0 the mean over each part of the domain is 0
+  /// \param u  holds the first guess, becomes the solution at the unknowns and stays as it is at all other nodes; its
+  ///           mean over each part of the domain is 0 where s = 0
   /// \throws SizeError if a field is not on the lattice; ValueError if a value is not finite, or, for s = 0, if f and q
-  /// do
-  ///         not balance (see Params::mean); ConvergenceError. u is unchanged then
+  ///         do not balance (see Params::mean); ConvergenceError. u is unchanged then
   template <class Q>
   SolveReport solve(const Field<T, D>& f, Q&& q, Field<T, D>& u) {
     require_lattice(f);
     require_lattice(u);
-    std::vector<double> right(unknowns());
+    right_.resize(unknowns());
     const double square = lattice_.spacing() * lattice_.spacing();
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      right[k] = square * domain_.share[domain_.unknowns[k].at] *
-                 finite(f[domain_.unknowns[k].node], domain_.unknowns[k].node, "the right-hand side");
+      right_[k] = square * domain_.share[domain_.unknowns[k].at] *
+                  finite(f[domain_.unknowns[k].node], domain_.unknowns[k].node, "the right-hand side");
     }
-    add_interface(q, right);
-    return solve_balances(right, u);
+    add_interface(q);
+    return solve_balances(u);
   }
   /// out := -Lap u in every cell with du/dn = q on the interface: the flux out of the cell over its volume.
   /// \throws SizeError; ValueError
@@ -115,13 +113,13 @@ class Neumann {
   void negative_laplacian(const Field<T, D>& u, Q&& q, Field<T, D>& out) {
     require_lattice(u);
     require_lattice(out);
-    std::vector<double> flux = outflow(u);
-    std::vector<double> in(unknowns(), 0.0);
-    add_interface(q, in);
+    find_outflow(u);
+    right_.assign(unknowns(), 0.0);
+    add_interface(q);
     const double square = lattice_.spacing() * lattice_.spacing();
     for (std::size_t k = 0; k < unknowns(); ++k) {
       const double share = domain_.share[domain_.unknowns[k].at];
-      out[domain_.unknowns[k].node] = share > 0.0 ? static_cast<T>((flux[k] - in[k]) / (square * share)) : T(0);
+      out[domain_.unknowns[k].node] = share > 0.0 ? static_cast<T>((outflow_[k] - right_[k]) / (square * share)) : T(0);
     }
   }
   /// One step of size dt of du/dt = diffusivity Lap u + source with diffusivity du/dn = q, by the theta rule: theta = 1
@@ -137,16 +135,16 @@ class Neumann {
                                        params_.shift, ": make the object with that shift"));
     }
     const double square = lattice_.spacing() * lattice_.spacing();
-    std::vector<double> right(unknowns(), 0.0);
-    add_interface(q, right);
-    const std::vector<double> out = outflow(u);
+    right_.assign(unknowns(), 0.0);
+    add_interface(q);
+    find_outflow(u);
     for (std::size_t k = 0; k < unknowns(); ++k) {
       const auto [at, node] = domain_.unknowns[k];
       const double added = square * domain_.share[at] * finite(source[node], node, "the source");
-      right[k] = (right[k] + added) / (theta * diffusivity) - (1.0 - theta) / theta * out[k] +
-                 domain_.cells.mass[at] * static_cast<double>(u[node]);
+      right_[k] = (right_[k] + added) / (theta * diffusivity) - (1.0 - theta) / theta * outflow_[k] +
+                  domain_.cells.mass[at] * static_cast<double>(u[node]);
     }
-    return solve_balances(right, u);
+    return solve_balances(u);
   }
 
  private:
@@ -177,11 +175,11 @@ class Neumann {
     }
     return value;
   }
-  /// right += h times the integral of q over the interface in each cell, in spacings^D.
+  /// right_ += h times the integral of q over the interface in each cell, in spacings^D.
   template <class Q>
-  void add_interface(Q&& q, std::vector<double>& right) const {
+  void add_interface(Q&& q) {
     for (const auto& piece : domain_.pieces) {
-      right[domain_.number[domain_.cells.grid.at(piece.node)]] +=
+      right_[domain_.number[domain_.cells.grid.at(piece.node)]] +=
           outward() * lattice_.spacing() * piece.area * datum(q, piece);
     }
   }
@@ -206,14 +204,17 @@ class Neumann {
     fluxes_.add(domain_.cells, domain_.cells.x.data(), domain_.cells.b.data());
     for (std::size_t k = 0; k < unknowns(); ++k) out[k] = domain_.cells.b[domain_.unknowns[k].at];
   }
-  /// What flows out of each cell by diffusion alone, in spacings^D.
-  std::vector<double> outflow(const Field<T, D>& u) {
-    std::vector<double> in(unknowns()), out(unknowns());
-    for (std::size_t k = 0; k < unknowns(); ++k)
-      in[k] = finite(u[domain_.unknowns[k].node], domain_.unknowns[k].node, "the field");
-    apply(in.data(), out.data());
-    for (std::size_t k = 0; k < unknowns(); ++k) out[k] -= domain_.cells.mass[domain_.unknowns[k].at] * in[k];
-    return out;
+  /// outflow_ := what flows out of each cell by diffusion alone, in spacings^D.
+  void find_outflow(const Field<T, D>& u) {
+    solution_.resize(unknowns());
+    outflow_.resize(unknowns());
+    for (std::size_t k = 0; k < unknowns(); ++k) {
+      solution_[k] = finite(u[domain_.unknowns[k].node], domain_.unknowns[k].node, "the field");
+    }
+    apply(solution_.data(), outflow_.data());
+    for (std::size_t k = 0; k < unknowns(); ++k) {
+      outflow_[k] -= domain_.cells.mass[domain_.unknowns[k].at] * solution_[k];
+    }
   }
   void precondition(const double* in, double* out) {
     auto& level = cycle_.finest();
@@ -222,28 +223,28 @@ class Neumann {
     for (std::size_t k = 0; k < unknowns(); ++k) out[k] = static_cast<double>(level.x[domain_.unknowns[k].at]);
   }
 
-  SolveReport solve_balances(std::vector<double>& right, Field<T, D>& u) {
-    if (params_.shift == 0.0) balance(right);
-    std::vector<double> solution(unknowns());
+  SolveReport solve_balances(Field<T, D>& u) {
+    if (params_.shift == 0.0) balance();
+    solution_.resize(unknowns());
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      solution[k] = finite(u[domain_.unknowns[k].node], domain_.unknowns[k].node, "the first guess");
+      solution_[k] = finite(u[domain_.unknowns[k].node], domain_.unknowns[k].node, "the first guess");
     }
     using Operator = std::function<void(const double*, double*)>;
     const Operator product = [this](const double* in, double* out) { apply(in, out); };
     const Operator cycle = [this](const double* in, double* out) { precondition(in, out); };
-    SolveReport report = solve_krylov<typename Flux::Krylov, double>(product, cycle, std::span<const double>(right),
-                                                                     std::span<double>(solution),
+    SolveReport report = solve_krylov<typename Flux::Krylov, double>(product, cycle, std::span<const double>(right_),
+                                                                     std::span<double>(solution_),
                                                                      {params_.tolerance, params_.most_iterations});
-    fix_totals(right, solution);
-    for (std::size_t k = 0; k < unknowns(); ++k) u[domain_.unknowns[k].node] = static_cast<T>(solution[k]);
+    fix_totals();
+    for (std::size_t k = 0; k < unknowns(); ++k) u[domain_.unknowns[k].node] = static_cast<T>(solution_[k]);
     return report;
   }
   /// Checks that what enters the parts of the domain leaves them, and spreads the rest.
-  void balance(std::vector<double>& right) const {
+  void balance() {
     std::vector<double> sum(parts(), 0.0), gross(parts(), 0.0);
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      sum[domain_.part[k]] += right[k];
-      gross[domain_.part[k]] += std::abs(right[k]);
+      sum[domain_.part[k]] += right_[k];
+      gross[domain_.part[k]] += std::abs(right_[k]);
     }
     for (std::size_t p = 0; p < parts(); ++p) {
       if (params_.mean == MeanPart::subtract || !(std::abs(sum[p]) > params_.mean_tolerance * gross[p])) continue;
@@ -255,21 +256,21 @@ class Neumann {
                                        "du/dn given they must balance: change them, or ask for MeanPart::subtract"));
     }
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      right[k] -=
+      right_[k] -=
           sum[domain_.part[k]] / domain_.volume_of_part[domain_.part[k]] * domain_.share[domain_.unknowns[k].at];
     }
   }
   /// Moves the solution in each part by a constant, so that the total is what the balances say and not what the
   /// tolerance leaves; where they do not fix it, so that it is zero.
-  void fix_totals(const std::vector<double>& right, std::vector<double>& solution) const {
+  void fix_totals() {
     const double square = params_.shift * lattice_.spacing() * lattice_.spacing();
     std::vector<CompensatedSum> excess(parts());
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      excess[domain_.part[k]] += domain_.share[domain_.unknowns[k].at] * solution[k];
-      if (square > 0.0) excess[domain_.part[k]] += -right[k] / square;
+      excess[domain_.part[k]] += domain_.share[domain_.unknowns[k].at] * solution_[k];
+      if (square > 0.0) excess[domain_.part[k]] += -right_[k] / square;
     }
     for (std::size_t k = 0; k < unknowns(); ++k)
-      solution[k] -= excess[domain_.part[k]].value() / domain_.volume_of_part[domain_.part[k]];
+      solution_[k] -= excess[domain_.part[k]].value() / domain_.volume_of_part[domain_.part[k]];
   }
 
   Lattice<D> lattice_;
@@ -278,6 +279,7 @@ class Neumann {
   detail::CellDomain<D> domain_;
   typename Flux::template Method<D> fluxes_;
   detail::AggregationCycle<D, E> cycle_;
+  std::vector<double> right_, solution_, outflow_;
 };
 
 }  // namespace cambium
