@@ -57,16 +57,19 @@ class GroupValues {
     interpolate(plan, group, patch_[static_cast<std::size_t>(field)].data(), f);
   }
 
- private:
-  /// Vectors reach beyond the last entry, and begin before the first.
-  static constexpr std::size_t padding = 32;
-
+  /// One field's patch.
+  const T* patch(int field) const { return patch_[static_cast<std::size_t>(field)].data(); }
   static Index<D> stride_of(const Group& group) {
     Index<D> stride;
     stride[0] = 1;
     for (int d = 1; d < D; ++d) stride[d] = stride[d - 1] * group.edge[d - 1];
     return stride;
   }
+
+ private:
+  /// Vectors reach beyond the last entry, and begin before the first.
+  static constexpr std::size_t padding = 32;
+
   template <class F>
   static void interpolate(const Plan& plan, const Group& group, const T* values, F&& f) {
     const Index<D> stride = stride_of(group);

@@ -63,6 +63,8 @@ class SheetBuilder {
     }
     std::size_t first = 0;
     for (std::size_t g = 0; g < groups_.size(); ++g) first = write_group(plan, g, first);
+    plan.anchors.swap(anchors_);
+    plan.first_anchor.emplace(std::move(first_anchor_));
     plan.second_sheets = second_sheets_;
     plan.folded = folded_;
   }
@@ -76,15 +78,11 @@ class SheetBuilder {
     std::int32_t next;
     std::int32_t anchor = none;
   };
-  struct Anchor {
-    Index<D> cell;
-    Point point;  ///< relative to the first node of the cell
-    std::int32_t next;
-    std::int32_t group;
-  };
+  using Anchor = typename Plan::Anchor;
   struct Group {
     Index<D> block;
     std::int32_t next;
+    std::vector<std::int32_t> anchors;
     std::vector<std::int32_t> table;  ///< value at each entry of the patch of the block, or none
     std::size_t values = 0;
   };
@@ -148,10 +146,10 @@ class SheetBuilder {
       if (anchors_[static_cast<std::size_t>(a)].point.same_sheet(point)) return a;
     }
     const auto a = static_cast<std::int32_t>(anchors_.size());
-    anchors_.push_back({cell, point, first_anchor_(cell), none});
+    anchors_.push_back({cell, {}, point, first_anchor_(cell), none});
     first_anchor_.set(cell, a);
     for (std::size_t n = 0; n < box_.size(); ++n) found_[n] = resolve(cell + box_[n].step, box_[n].step, point);
-    anchors_.back().group = join_group(cell);
+    anchors_.back().group = join_group(cell, a);
     return a;
   }
   /// The value of a node on the sheet of an anchor. \param step  from the anchor's cell
@@ -174,8 +172,8 @@ class SheetBuilder {
     if (nearest) return add(node, *nearest);
     return add(node, sheet);
   }
-  /// The first group of the cell's block whose patch has no other values at the entries of the anchor.
-  std::int32_t join_group(const Index<D>& cell) {
+  /// The first group of the cell's block whose patch has no other values at the entries of the anchor takes it.
+  std::int32_t join_group(const Index<D>& cell, std::int32_t anchor) {
     const Index<D> block = Field<T, D, Sparse>::block_of(cell);
     const std::size_t shift = entry_of(cell - block * BlockShape<D>::extent);
     std::int32_t first = first_group_(block);
@@ -191,9 +189,10 @@ class SheetBuilder {
     if (g == none) {
       g = static_cast<std::int32_t>(groups_.size());
       const auto entries = static_cast<std::size_t>(product(Index<D>::constant(edge)));
-      groups_.push_back({block, first, std::vector<std::int32_t>(entries, none)});
+      groups_.push_back({block, first, {}, std::vector<std::int32_t>(entries, none)});
       first_group_.set(block, g);
     }
+    groups_[static_cast<std::size_t>(g)].anchors.push_back(anchor);
     auto& table = groups_[static_cast<std::size_t>(g)].table;
     for (std::size_t n = 0; n < box_.size(); ++n) table[shift + box_[n].entry] = found_[n];
     return g;
@@ -236,6 +235,10 @@ class SheetBuilder {
     to.entries = plan.entry.size() - to.first_entry;
     plan.largest_patch = std::max(plan.largest_patch, static_cast<std::size_t>(product(to.edge)));
     for (std::size_t k = first; k < first + group.values; ++k) write_value(plan, k, group.block, low);
+    for (const std::int32_t a : group.anchors) {
+      Anchor& anchor = anchors_[static_cast<std::size_t>(a)];
+      anchor.in_patch = in_patch(anchor.cell, group.block, low);
+    }
     plan.groups.push_back(to);
     return first + group.values;
   }
@@ -245,12 +248,15 @@ class SheetBuilder {
     Vec<D, T> inside;
     cell_of(value.point.point, value.node, inside);
     plan.node[k] = value.node;
+    const Index<D> first = in_patch(cell, block, low);
     for (int d = 0; d < D; ++d) {
       plan.offset[d][k] = value.point.point[d];
       plan.normal[d][k] = value.point.normal[d];
-      const std::ptrdiff_t in_patch = cell[d] - block[d] * BlockShape<D>::extent + before + reach - low[d];
-      plan.place[d][k] = static_cast<T>(in_patch) + inside[d];
+      plan.place[d][k] = static_cast<T>(first[d]) + inside[d];
     }
+  }
+  static Index<D> in_patch(const Index<D>& cell, const Index<D>& block, const Index<D>& low) {
+    return cell - block * BlockShape<D>::extent + Index<D>::constant(before + reach) - low;
   }
   template <class F>
   void for_each_entry(const Group& group, F&& f) const {

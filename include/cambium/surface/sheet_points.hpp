@@ -37,22 +37,22 @@ class SheetPoints {
 
   SheetPoints(const Band& band, const ClosestPoints<K, T, D>& points) : band_(band), points_(points) {}
 
-  /// The closest point of node i of block b; points relative to the node.
-  Point nearest(std::size_t b, std::size_t i) const {
+  /// The closest point of node i of block b; points relative to the node. The normal is the way to the node or, where
+  /// that is short, that of the interpolant of phi.
+  Point nearest(std::size_t b, std::size_t i) {
     const Vec<D, T> offset = points_.offset(b, i);
     const T length = norm(offset);
     const T phi = band_.values().block(b)[i];
     if (length > T(0.3)) return {offset, offset * ((phi < T(0) ? T(1) : T(-1)) / length)};
-    const Index<D> node = band_.values().node(b, i);
-    Vec<D, T> slope;
-    for (int d = 0; d < D; ++d) {
-      slope[d] = band_(band_.inside(node + Index<D>::unit(d, 1))) - band_(band_.inside(node + Index<D>::unit(d, -1)));
-    }
-    const T steepness = norm(slope);
-    return {offset, steepness > T(0) ? slope / steepness : Vec<D, T>::unit(0)};
+    if (in_patch_ != b) patch_.read_block(band_, b, halo);
+    in_patch_ = b;
+    const Vec<D, T> y = patch_.position(patch_.entry(i)) + offset;
+    const Jet<T, D> jet = Interpolant<K, T, D>::jet(patch_.data(), patch_.stride(), y);
+    const T slope = norm(jet.gradient);
+    return {offset, slope > T(0) ? jet.gradient / slope : Vec<D, T>::unit(0)};
   }
   /// The same for a node of the lattice, if it has one.
-  std::optional<Point> nearest(const Index<D>& node) const {
+  std::optional<Point> nearest(const Index<D>& node) {
     const std::ptrdiff_t b = band_.values().find(Band_::block_of(node));
     if (b < 0 || !points_.found(static_cast<std::size_t>(b), Band_::offset(node))) return std::nullopt;
     return nearest(static_cast<std::size_t>(b), Band_::offset(node));
@@ -68,6 +68,7 @@ class SheetPoints {
  private:
   using Band_ = Field<T, D, Sparse>;
   static constexpr std::ptrdiff_t halo = K::support / 2 + 2;
+  static constexpr auto none = static_cast<std::size_t>(-1);
 
   template <class Kernel>
   std::optional<Point> search(const Index<D>& node, const Vec<D, T>& foot, const Point& sheet) {
@@ -78,6 +79,7 @@ class SheetPoints {
       first[d] = node[d] + cell - halo;
       x[d] = static_cast<T>(halo - cell);
     }
+    in_patch_ = none;
     patch_.read(band_, first, Index<D>::constant(2 * halo + 2));
     ClosestPointSearch<Kernel, T, D> newton(patch_, norm(foot) + T(3));
     Vec<D, T> y = x + foot;
@@ -91,6 +93,7 @@ class SheetPoints {
   const Band& band_;
   const ClosestPoints<K, T, D>& points_;
   Patch<T, D> patch_;
+  std::size_t in_patch_ = none;  ///< the block that was read last
 };
 
 }  // namespace cambium::detail

@@ -36,7 +36,9 @@ class SurfaceBand {
     double penalty = 2.0 * D;
   };
 
-  explicit SurfaceBand(const Params& params = {}) : params_(params) {
+  SurfaceBand() = default;
+  /// \throws ValueError unless the penalty is positive and finite
+  explicit SurfaceBand(const Params& params) : params_(params) {
     if (!(params.penalty > 0.0) || !std::isfinite(params.penalty)) {
       throw ValueError(detail::message("penalty of a surface band is ", params.penalty,
                                        " / h^2: it must be positive and finite; 2 D is the usual choice"));
@@ -71,7 +73,7 @@ class SurfaceBand {
     for (int d = 0; d < D; ++d) x[d] += static_cast<double>(plan_.offset[d][k]) * spacing();
     return lattice_->domain().wrap(x);
   }
-  /// Outward unit normal at the closest point of value k, to second order.
+  /// Outward unit normal at the closest point of value k.
   Vec<D, T> normal(std::size_t k) const { return plan_.of(plan_.normal, k); }
   /// Distance of node k from its closest point.
   double distance(std::size_t k) const { return static_cast<double>(norm(plan_.of(plan_.offset, k))) * spacing(); }
