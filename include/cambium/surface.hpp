@@ -5,6 +5,7 @@
 /// \dir surface  Functions on a moving interface: diffusion, transport, integrals.
 #include <cambium/surface/cell_stencil.hpp>
 #include <cambium/surface/group_values.hpp>
+#include <cambium/surface/place_batch.hpp>
 #include <cambium/surface/point_reader.hpp>
 #include <cambium/surface/sheet_builder.hpp>
 #include <cambium/surface/sheet_plan.hpp>

@@ -61,6 +61,8 @@ class SheetBuilder {
     for (auto* columns : {&plan.offset, &plan.normal, &plan.place}) {
       for (auto& column : *columns) column.resize(size);
     }
+    // Places are read by whole vectors.
+    for (auto& column : plan.place) column.resize(size + 16, T(0));
     std::size_t first = 0;
     for (std::size_t g = 0; g < groups_.size(); ++g) first = write_group(plan, g, first);
     plan.anchors.swap(anchors_);
