@@ -7,6 +7,7 @@
 #include <cambium/surface/group_values.hpp>
 #include <cambium/surface/place_batch.hpp>
 #include <cambium/surface/point_reader.hpp>
+#include <cambium/surface/projected_laplacian.hpp>
 #include <cambium/surface/sheet_builder.hpp>
 #include <cambium/surface/sheet_plan.hpp>
 #include <cambium/surface/sheet_points.hpp>
