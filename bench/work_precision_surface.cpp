@@ -176,7 +176,7 @@ nlohmann::json rare_extensions(bool quick) {
 }  // namespace bench
 
 int main(int argc, char** argv) {
-  std::vector<std::ptrdiff_t> cells{40, 48, 64, 96};
+  std::vector<std::ptrdiff_t> cells{40, 48, 56, 64};
   std::string json;
   bool quick = false;
   CLI::App app("Error against time of functions on interfaces");
