@@ -14,4 +14,5 @@
 #include <cambium/surface/surface_band.hpp>
 #include <cambium/surface/surface_integral.hpp>
 #include <cambium/surface/surface_laplacian.hpp>
+#include <cambium/surface/surface_stencil.hpp>
 #include <cambium/surface/surface_transport.hpp>
