@@ -33,12 +33,12 @@ def draw(panel, runs, x, y, label, order, colour, style="-"):
                  markersize=5, linewidth=1.2, label=label)
 
 
-def finish(panel, title, x):
+def finish(panel, title, x, legend="best"):
     panel.set_title(title, fontsize=10)
     panel.set_xlabel(x)
     panel.grid(True, which="major", color="#e0e0e0", linewidth=0.6)
     panel.spines[["top", "right"]].set_visible(False)
-    panel.legend(frameon=False, fontsize=8)
+    panel.legend(frameon=False, fontsize=8, loc=legend)
 
 
 def show_cells(panel, cells):
@@ -100,7 +100,8 @@ def main(raw=KEPT):
         show_cells(panel, cells)
     finish(panels[0], "Diffusion on the unit sphere until t = 0.5", "time of one thread, s")
     finish(panels[1], "Y32 until t = 0.2", "cells along an axis")
-    finish(panels[2], "Interfaces that grow until t = 0.5", "cells along an axis")
+    panels[2].set_ylim(bottom=1e-9)
+    finish(panels[2], "Interfaces that grow until t = 0.5", "cells along an axis", "lower left")
     panels[0].set_ylabel("largest error over what is left of the amplitude")
     figure.tight_layout()
     bench_report.save(figure, "work_precision_surface")
