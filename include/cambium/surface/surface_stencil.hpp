@@ -32,6 +32,7 @@ constexpr void check_surface_stencil() {
       requires { typename S::Kernel; },
       "cambium: a surface stencil names the kernel that interpolates at closest points, S::Kernel; see "
       "docs/concepts/SurfaceStencil.md");
+  if constexpr (requires { typename S::Kernel; }) check_remeshing_kernel<typename S::Kernel>();
   static_assert(
       requires { S::reach, S::axes; },
       "cambium: a surface stencil says what it reads: S::reach and S::axes; see docs/concepts/SurfaceStencil.md");
