@@ -18,4 +18,5 @@
 #include <cambium/particles.hpp>
 #include <cambium/poisson.hpp>
 #include <cambium/simd.hpp>
+#include <cambium/surface.hpp>
 #include <cambium/time.hpp>
