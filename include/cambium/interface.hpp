@@ -7,6 +7,7 @@
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
+#include <cambium/interface/interface_gradient.hpp>
 #include <cambium/interface/jump.hpp>
 #include <cambium/interface/jump_data.hpp>
 #include <cambium/interface/jump_geometry.hpp>
