@@ -13,6 +13,7 @@
 #include <cambium/interface/finite_volumes.hpp>
 #include <cambium/interface/images.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
+#include <cambium/interface/interface_gradient.hpp>
 #include <cambium/interface/jump.hpp>
 #include <cambium/interface/jump_data.hpp>
 #include <cambium/interface/jump_geometry.hpp>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <support/manufactured.hpp>
 #include <support/order.hpp>
 
 #include <cambium/interface/dirichlet.hpp>
@@ -16,30 +17,7 @@ namespace scenes {
 
 using namespace cambium;
 
-/// A smooth function without symmetries, its gradient and Laplacian: exp(x) sin(2 y + z) + x^2 z, z = 0.3 in 2D.
-template <int D>
-struct Manufactured {
-  double shift = 0.0;
-
-  static double height(const Vec<D>& x) { return D == 3 ? x[D - 1] : 0.3; }
-  static double value(const Vec<D>& x) {
-    return std::exp(x[0]) * std::sin(2.0 * x[1] + height(x)) + x[0] * x[0] * height(x);
-  }
-  static Vec<D> gradient(const Vec<D>& x) {
-    const double e = std::exp(x[0]);
-    const double angle = 2.0 * x[1] + height(x);
-    Vec<D> result;
-    result[0] = e * std::sin(angle) + 2.0 * x[0] * height(x);
-    result[1] = 2.0 * e * std::cos(angle);
-    if (D == 3) result[D - 1] = e * std::cos(angle) + x[0] * x[0];
-    return result;
-  }
-  double right_side(const Vec<D>& x) const {
-    const double wave = std::exp(x[0]) * std::sin(2.0 * x[1] + height(x));
-    const double laplacian = (D == 3 ? -4.0 : -3.0) * wave + 2.0 * height(x);
-    return shift * value(x) - laplacian;
-  }
-};
+using support::Manufactured;
 
 /// Concentration of a nutrient that a ball of radius R consumes: lap c = c, c = 1 on it.
 template <int D>

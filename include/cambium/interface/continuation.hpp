@@ -22,12 +22,22 @@ struct LinePoints {
     value[static_cast<std::size_t>(count)] = y;
     ++count;
   }
+  /// To be called when all points are added, before at().
+  void settle() {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      double product = 1.0;
+      for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
+        if (j != i) product *= place[i] - place[j];
+      }
+      value[i] /= product;
+    }
+  }
   double at(double x) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       double product = value[i];
       for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
-        if (j != i) product *= (x - place[j]) / (place[i] - place[j]);
+        if (j != i) product *= x - place[j];
       }
       sum += product;
     }
@@ -50,6 +60,15 @@ class Continuation {
     double weight;
     double sum;
     bool whole;  ///< by polynomials of the full degree
+
+    /// Polynomials of the full degree take the place of others.
+    void add(double more_weight, double more, bool of_full_degree) {
+      if (whole && !of_full_degree) return;
+      if (of_full_degree && !whole) weight = sum = 0.0;
+      whole = of_full_degree;
+      weight += more_weight;
+      sum += more;
+    }
   };
 
   /// Writes the values into x, and marks their nodes as `continued`; forget() undoes that.
@@ -59,27 +78,12 @@ class Continuation {
   const std::vector<Value>& find(CutDomain<D>& domain, double* x, const std::vector<double>& data,
                                  std::ptrdiff_t reach) {
     values_.clear();
+    number_.resize(domain.grid.size());
     for (std::size_t i = 0; i < domain.nodes.size(); ++i) {
       for (std::size_t k = 0; k < 2 * D; ++k) {
         if (domain.nodes[i].leg[k] >= 0.0) follow(domain, x, data, i, k, reach);
       }
     }
-    std::ranges::stable_sort(values_, {}, &Value::at);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      if (kept > 0 && values_[kept - 1].at == values_[i].at) {
-        Value& value = values_[kept - 1];
-        if (value.whole == values_[i].whole) {
-          value.weight += values_[i].weight;
-          value.sum += values_[i].sum;
-        } else if (values_[i].whole) {
-          value = values_[i];
-        }
-      } else {
-        values_[kept++] = values_[i];
-      }
-    }
-    values_.resize(kept);
     write(domain, x, 0);
     find_missing(domain, reach);
     for (int round = 0; round < 2 * D && !missing_.empty(); ++round) {
@@ -100,8 +104,8 @@ class Continuation {
   /// Closer to the interface than this a node adds nothing but round-off to the polynomial.
   static constexpr double too_close = 0.25;
 
-  void follow(const CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i,
-              std::size_t k, std::ptrdiff_t reach) {
+  void follow(CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i, std::size_t k,
+              std::ptrdiff_t reach) {
     const CutNode<D>& start = domain.nodes[i];
     const double crossing = start.leg[k];
     const LinePoints line = points(domain, x, data, i, k);
@@ -110,13 +114,27 @@ class Continuation {
       const Index<D> next = domain.neighbour(node, k);
       const bool wall = !domain.grid.periodic[static_cast<int>(k / 2)] &&
                         next[static_cast<int>(k / 2)] - node[static_cast<int>(k / 2)] != (k % 2 == 0 ? -1 : 1);
-      if (wall || domain.in_domain(next)) return;
+      if (wall || is_original(domain, next)) return;
       node = next;
       const double distance = static_cast<double>(m) - crossing + 0.1;
       const double weight = 1.0 / (distance * distance * distance * distance);
-      values_.push_back(
-          {domain.grid.at(node), node, weight, weight * line.at(static_cast<double>(m)), line.count > Degree});
+      value_at(domain, node).add(weight, weight * line.at(static_cast<double>(m)), line.count > Degree);
     }
+  }
+  /// True for a node of the domain itself.
+  static bool is_original(const CutDomain<D>& domain, const Index<D>& node) {
+    const std::uint8_t kind = domain.kind[domain.grid.at(node)];
+    return kind != beyond && kind != continued;
+  }
+  /// The value of a node that has one or gets it now.
+  Value& value_at(CutDomain<D>& domain, const Index<D>& node) {
+    const std::size_t at = domain.grid.at(node);
+    if (domain.kind[at] != continued) {
+      domain.kind[at] = continued;
+      number_[at] = static_cast<std::uint32_t>(values_.size());
+      values_.push_back({at, node, 0.0, 0.0, false});
+    }
+    return values_[number_[at]];
   }
   LinePoints points(const CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i,
                     std::size_t k) const {
@@ -131,7 +149,7 @@ class Continuation {
       const bool close = line.place[0] - place < too_close;
       if (!close) line.add(place, x[at]);
       if (line.count > Degree || domain.kind[at] == given) break;
-      const double leg = domain.leg(node, back);
+      const double leg = at == start.at ? start.leg[back] : domain.leg(node, back);
       if (leg >= 0.0) {
         const auto number = static_cast<std::size_t>(&domain.cut_node(at) - domain.nodes.data());
         const bool apart = line.place[static_cast<std::size_t>(line.count - 1)] - (place - leg) >= too_close;
@@ -141,6 +159,7 @@ class Continuation {
       node = domain.neighbour(node, back);
       place -= 1.0;
     }
+    line.settle();
     return line;
   }
 
@@ -153,27 +172,43 @@ class Continuation {
   /// Nodes up to two indices away from cut nodes that have no value.
   void find_missing(const CutDomain<D>& domain, std::ptrdiff_t reach) {
     missing_.clear();
+    listed_.resize(domain.grid.size());
     const std::ptrdiff_t r = std::min<std::ptrdiff_t>(reach, 2);
+    const Index<D> around = Index<D>::constant(r);
     for (const auto& start : domain.nodes) {
-      const Index<D> around = Index<D>::constant(r);
-      for_each_row<D>(start.node - around, start.node + around, [&](const Index<D>& first) {
-        Index<D> node = first;
-        for (std::ptrdiff_t i = 0; i <= 2 * r; ++i) {
-          node = first;
-          node[0] += i;
-          bool inside = true;
-          for (int d = 0; d < D; ++d) {
-            const std::ptrdiff_t n = domain.grid.nodes[d];
-            if (domain.grid.periodic[d]) node[d] = (node[d] % n + n) % n;
-            inside = inside && node[d] >= 0 && node[d] < n;
-          }
-          if (inside && !domain.in_domain(node)) missing_.push_back(node);
+      bool inner = true;
+      for (int d = 0; d < D; ++d) inner = inner && start.node[d] >= r && start.node[d] + r < domain.grid.nodes[d];
+      for_each_row<D>(start.node - around, start.node + around, [&](const Index<D>& row) {
+        if (inner) {
+          list_row(domain, row, 2 * r);
+        } else {
+          list_row_at_faces(domain, row, 2 * r);
         }
       });
     }
-    const auto entry = [&](const Index<D>& node) { return domain.grid.at(node); };
-    std::ranges::sort(missing_, {}, entry);
-    missing_.erase(std::unique(missing_.begin(), missing_.end()), missing_.end());
+    for (const Index<D>& node : missing_) listed_[domain.grid.at(node)] = 0;
+  }
+  void list(const CutDomain<D>& domain, std::size_t at, const Index<D>& node) {
+    if (domain.kind[at] != beyond || listed_[at] != 0) return;
+    listed_[at] = 1;
+    missing_.push_back(node);
+  }
+  void list_row(const CutDomain<D>& domain, Index<D> node, std::ptrdiff_t count) {
+    const std::size_t first = domain.grid.at(node);
+    for (std::ptrdiff_t i = 0; i <= count; ++i, ++node[0]) list(domain, first + static_cast<std::size_t>(i), node);
+  }
+  void list_row_at_faces(const CutDomain<D>& domain, const Index<D>& row, std::ptrdiff_t count) {
+    for (std::ptrdiff_t i = 0; i <= count; ++i) {
+      Index<D> node = row;
+      node[0] += i;
+      bool inside = true;
+      for (int d = 0; d < D; ++d) {
+        const std::ptrdiff_t n = domain.grid.nodes[d];
+        if (domain.grid.periodic[d]) node[d] = (node[d] % n + n) % n;
+        inside = inside && node[d] >= 0 && node[d] < n;
+      }
+      if (inside) list(domain, domain.grid.at(node), node);
+    }
   }
   /// Mean over the lines with most values. \return false if there is none
   bool extrapolate(const CutDomain<D>& domain, const double* x, const Index<D>& node) {
@@ -198,7 +233,9 @@ class Continuation {
   }
 
   std::vector<Value> values_;
+  std::vector<std::uint32_t> number_;  ///< of the value of a `continued` node
   std::vector<Index<D>> missing_;
+  std::vector<std::uint8_t> listed_;  ///< 1 for nodes in missing_ while these are gathered
 };
 
 }  // namespace cambium::detail

@@ -49,6 +49,15 @@ struct CutDomain {
     if (i >= n) i = grid.periodic[d] ? 0 : n - 2;
     return node;
   }
+  /// True if the node at an entry is plain and a neighbour is beyond, or may be so across a face of the lattice.
+  bool beside_beyond(std::size_t at) const {
+    if (kind[at] != plain) return false;
+    for (int d = 0; d < D; ++d) {
+      const auto step = static_cast<std::size_t>(grid.stride[d]);
+      if (kind[at - step] == beyond || kind[at + step] == beyond) return true;  // so is the layer around the lattice
+    }
+    return false;
+  }
   bool in_domain(const Index<D>& node) const { return kind[grid.at(node)] != beyond; }
   /// The cut node at an entry that is one.
   const CutNode<D>& cut_node(std::size_t at) const { return *std::ranges::lower_bound(nodes, at, {}, &CutNode<D>::at); }
@@ -62,23 +71,31 @@ struct CutDomain {
   void find_given() {
     unknowns = 0;
     touches.fill(false);
+    const std::ptrdiff_t end = grid.nodes[0] - 1;
     for_each_row<D>(Index<D>{}, grid.nodes - Index<D>::constant(1), [&](const Index<D>& first) {
-      Index<D> node = first;
-      for (node[0] = 0; node[0] < grid.nodes[0]; ++node[0]) {
-        std::uint8_t& here = kind[grid.at(node)];
-        if (here == beyond) continue;
-        bool on_face = false;
-        for (int d = 0; d < D; ++d) {
-          if (grid.periodic[d] || (node[d] != 0 && node[d] != grid.nodes[d] - 1)) continue;
-          touches[static_cast<std::size_t>(d)] = true;
-          on_face = on_face || grid.given_faces(d);
-        }
-        if (on_face) {
-          here = given;
-        } else {
-          ++unknowns;
-        }
+      std::uint8_t* const row = kind.data() + grid.at(first);
+      bool on_face = false;
+      std::array<bool, D> faces{};
+      for (int d = 1; d < D; ++d) {
+        if (grid.periodic[d] || (first[d] != 0 && first[d] != grid.nodes[d] - 1)) continue;
+        faces[static_cast<std::size_t>(d)] = true;
+        on_face = on_face || grid.given_faces(d);
       }
+      std::ptrdiff_t here = 0;
+      for (std::ptrdiff_t i = 0; i <= end; ++i) here += row[i] != beyond;
+      if (here == 0) return;
+      for (std::size_t d = 1; d < D; ++d) touches[d] = touches[d] || faces[d];
+      const bool ends = !grid.periodic[0] && (row[0] != beyond || row[end] != beyond);
+      touches[0] = touches[0] || ends;
+      for (std::ptrdiff_t i = 0; i <= end; ++i) {
+        const bool face = on_face || (grid.given_faces(0) && (i == 0 || i == end));
+        if (face && row[i] != beyond) {
+          row[i] = given;
+          --here;
+        }
+        if (!on_face && i == 0 && end > 0) i = end - 1;  // only the two ends may be faces
+      }
+      unknowns += here;
     });
   }
   void sort_cut_nodes() {
@@ -120,6 +137,23 @@ void find_kinds(const NarrowBand<T, D>& band, Side side, CutDomain<D>& domain, c
   });
 }
 
+/// Calls f(node, its number in the block) for nodes of a block that are plain and may have a neighbour beyond.
+template <class T, int D, class F>
+void each_beside(const NarrowBand<T, D>& band, std::size_t b, const CutDomain<D>& domain, F&& f) {
+  constexpr std::ptrdiff_t extent = NarrowBand<T, D>::extent;
+  const Index<D> origin = band.values().block_origin(b);
+  Index<D> last;
+  for (int d = 0; d < D; ++d) last[d] = std::min(origin[d] + extent, domain.grid.nodes[d]) - 1;
+  for_each_row<D>(origin, last, [&](const Index<D>& row) {
+    const std::size_t start = domain.grid.at(row);
+    Index<D> node = row;
+    for (; node[0] <= last[0]; ++node[0]) {
+      const auto i = static_cast<std::size_t>(node[0] - row[0]);
+      if (domain.beside_beyond(start + i)) f(node, Field<T, D, Sparse>::offset(node));
+    }
+  });
+}
+
 /// Finds the crossings of the legs with the zero set of the interpolant of kernel K along them.
 template <class K, class T, int D, Execution E>
 void find_crossings(const NarrowBand<T, D>& band, CutDomain<D>& domain, const E& execution) {
@@ -127,10 +161,10 @@ void find_crossings(const NarrowBand<T, D>& band, CutDomain<D>& domain, const E&
   std::vector<Patch<T, D>> patches(static_cast<std::size_t>(execution.count()));
   for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
     Patch<T, D>& patch = patches[worker];
-    patch.read_block(band, b, K::support / 2);
-    for (std::size_t i = 0; i < NarrowBand<T, D>::volume; ++i) {
-      const Index<D> node = band.values().node(b, i);
-      if (!band.lattice().contains(node) || domain.kind[domain.grid.at(node)] != plain) continue;
+    bool read = false;
+    each_beside(band, b, domain, [&](const Index<D>& node, std::size_t i) {
+      if (!read) patch.read_block(band, b, K::support / 2);
+      read = true;
       CutNode<D> candidate{node, domain.grid.at(node), {}};
       bool crossed = false;
       for (std::size_t k = 0; k < candidate.leg.size(); ++k) {
@@ -141,33 +175,51 @@ void find_crossings(const NarrowBand<T, D>& band, CutDomain<D>& domain, const E&
         crossed = crossed || !whole;
       }
       if (crossed) found[b].push_back(candidate);
-    }
+    });
   });
   domain.nodes.clear();
   for (const auto& nodes : found) domain.nodes.insert(domain.nodes.end(), nodes.begin(), nodes.end());
   domain.sort_cut_nodes();
 }
 
+/// Calls f(node) for nodes 2 i of a level whose neighbour, or whose neighbour's next, is across the interface: cut
+/// nodes and the nodes before them. Some are called more than once.
+template <int D, class F>
+void each_coarse_candidate(const CutDomain<D>& fine, F&& f) {
+  const auto odd = [](const Index<D>& node) {
+    int count = 0;
+    for (int d = 0; d < D; ++d) count += static_cast<int>(node[d] % 2);
+    return count;
+  };
+  for (const auto& cut_node : fine.nodes) {
+    const int odds = odd(cut_node.node);
+    if (odds == 0) f(cut_node.node);
+    if (odds != 1) continue;
+    for (std::size_t k = 0; k < cut_node.leg.size(); ++k) {
+      if (cut_node.leg[k] < 0.0) continue;
+      const Index<D> before = fine.neighbour(cut_node.node, k ^ 1);
+      if (odd(before) == 0) f(before);
+    }
+  }
+}
+
 /// The domain on nodes 2 i of a finer one: its legs are two of those, and end where the first of them is cut.
 template <int D>
-CutDomain<D> coarsen(const CutDomain<D>& fine, const LevelGrid<D>& grid) {
-  CutDomain<D> coarse(grid);
+void coarsen(const CutDomain<D>& fine, CutDomain<D>& coarse) {
+  const LevelGrid<D>& grid = coarse.grid;
   coarse.kind.assign(grid.size(), beyond);
-  const Index<D> last = grid.nodes - Index<D>::constant(1);
-  const auto each = [&](auto&& f) {
-    for_each_row<D>(Index<D>{}, last, [&](const Index<D>& first) {
-      Index<D> node = first;
-      for (node[0] = 0; node[0] < grid.nodes[0]; ++node[0]) f(node, node * std::ptrdiff_t{2});
-    });
-  };
-  each([&](const Index<D>& node, const Index<D>& from) {
-    for (int d = 0; d < D; ++d) {
-      if (from[d] >= fine.grid.nodes[d]) return;  // only where the domain does not touch the wall
-    }
-    coarse.kind[grid.at(node)] = fine.in_domain(from) ? plain : beyond;
+  coarse.nodes.clear();
+  Index<D> last = grid.nodes - Index<D>::constant(1);
+  for (int d = 0; d < D; ++d) last[d] = std::min(last[d], (fine.grid.nodes[d] - 1) / 2);
+  for_each_row<D>(Index<D>{}, last, [&](const Index<D>& row) {
+    const std::uint8_t* const from = fine.kind.data() + fine.grid.at(row * std::ptrdiff_t{2});
+    std::uint8_t* const to = coarse.kind.data() + grid.at(row);
+    for (std::ptrdiff_t i = 0; i <= last[0]; ++i) to[i] = from[2 * i] == beyond ? beyond : plain;
   });
   coarse.find_given();
-  each([&](const Index<D>& node, const Index<D>& from) {
+  each_coarse_candidate(fine, [&](const Index<D>& from) {
+    Index<D> node;
+    for (int d = 0; d < D; ++d) node[d] = from[d] / 2;
     const std::size_t at = grid.at(node);
     if (coarse.kind[at] != plain) return;
     CutNode<D> candidate{node, at, {}};
@@ -181,10 +233,11 @@ CutDomain<D> coarsen(const CutDomain<D>& fine, const LevelGrid<D>& grid) {
       candidate.leg[k] = length;
       crossed = crossed || length >= 0.0;
     }
-    if (crossed) coarse.nodes.push_back(candidate);
+    if (!crossed) return;
+    coarse.kind[at] = cut;  // so that it is taken once
+    coarse.nodes.push_back(candidate);
   });
   coarse.sort_cut_nodes();
-  return coarse;
 }
 
 /// Coefficients of -h^2 Lap along the legs of a cut node, from quadratic polynomials through it and the two ends of its
@@ -222,17 +275,31 @@ struct CutWeights {
   static constexpr double on_interface = 1e-14;
 };
 
+/// Gives a level the rows of the cut nodes of a domain.
+template <class T, int D>
+void take_rows(const CutDomain<D>& domain, double shift, Level<T, D>& level) {
+  for (const auto& node : domain.nodes) {
+    const CutWeights<D> weights(node, level.diagonal, shift);
+    CutRow<T, D> row{node.at, {}};
+    std::ptrdiff_t sum = 0;
+    for (int d = 0; d < D; ++d) sum += node.node[d];
+    for (std::size_t k = 0; k < row.leg.size(); ++k) {
+      row.leg[k] = node.leg[k] < 0.0 ? static_cast<T>(weights.leg[k]) : T(0);
+    }
+    level.cut[static_cast<std::size_t>(sum % 2)].push_back(row);
+  }
+}
+
 /// Gives a level the unknowns and rows of a domain.
 template <class T, int D>
 void take_domain(const CutDomain<D>& domain, double shift, Level<T, D>& level) {
   level.diagonal = 2.0 * D + shift;
-  level.unknowns.clear();
-  level.regular.clear();
-  level.count = 0;
+  level.clear();
   const LevelGrid<D>& grid = domain.grid;
   for_each_row<D>(Index<D>{}, grid.nodes - Index<D>::constant(1), [&](const Index<D>& first) {
     Index<D> node = first;
     const std::uint8_t* const kind = domain.kind.data() + grid.at(first);
+    if (std::all_of(kind, kind + grid.nodes[0], [](std::uint8_t one) { return one == beyond; })) return;
     const auto end_of = [&](std::ptrdiff_t i, auto&& belongs) {
       while (i < grid.nodes[0] && belongs(kind[i])) ++i;
       return i;
@@ -251,16 +318,23 @@ void take_domain(const CutDomain<D>& domain, double shift, Level<T, D>& level) {
       if (i < grid.nodes[0] && (kind[i] == beyond || kind[i] == given)) ++i;
     }
   });
-  for (auto& rows : level.cut) rows.clear();
-  for (const auto& node : domain.nodes) {
-    const CutWeights<D> weights(node, level.diagonal, shift);
-    CutRow<T, D> row{node.at, {}};
-    std::ptrdiff_t sum = 0;
-    for (int d = 0; d < D; ++d) sum += node.node[d];
-    for (std::size_t k = 0; k < row.leg.size(); ++k) {
-      row.leg[k] = node.leg[k] < 0.0 ? static_cast<T>(weights.leg[k]) : T(0);
+  take_rows(domain, shift, level);
+}
+
+/// Gives a level the unknowns and rows of another one of the same grid, in another precision.
+template <class From, class T, int D>
+void take_runs(const Level<From, D>& from, Level<T, D>& level) {
+  level.clear();
+  level.diagonal = from.diagonal;
+  level.unknowns = from.unknowns;
+  level.regular = from.regular;
+  level.count = from.count;
+  for (std::size_t colour = 0; colour < 2; ++colour) {
+    for (const auto& row : from.cut[colour]) {
+      auto& to = level.cut[colour].emplace_back();
+      to.at = row.at;
+      for (std::size_t k = 0; k < row.leg.size(); ++k) to.leg[k] = static_cast<T>(row.leg[k]);
     }
-    level.cut[static_cast<std::size_t>(sum % 2)].push_back(row);
   }
 }
 

@@ -2,22 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#include <Eigen/IterativeLinearSolvers>
-#include <unsupported/Eigen/IterativeSolvers>
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic pop
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 #include <vector>
 
+#include <cambium/multigrid/bicgstab_loop.hpp>
 #include <cambium/multigrid/convergence_error.hpp>
+#include <cambium/multigrid/eigen.hpp>
 
 namespace cambium::detail {
 
@@ -158,11 +150,11 @@ struct ConjugateGradient {
   /// Preconditioner calls to a residual, and which of them has it.
   static constexpr int every = 1, first = 0;
 };
-/// Stabilised biconjugate gradients (Eigen's): two applications of A and of the preconditioner an iteration.
+/// Stabilised biconjugate gradients, in a loop that keeps its vectors: two applications of A and of the preconditioner
+/// an iteration, of which the last may be half of one.
 struct BiCGStab {
-  template <class T, class Matrix>
-  using Solver = Eigen::BiCGSTAB<Matrix, detail::Preconditioner<T>>;
-  static constexpr int every = 2, first = 1;
+  template <class T, Execution E>
+  using Loop = detail::BiCGStabLoop<T, E>;
 };
 /// GMRES (Eigen's), restarted after `Restart` iterations, of which each keeps a vector; residuals are noted at
 /// restarts, and the tolerance is one of preconditioned residuals.
@@ -181,29 +173,92 @@ struct KrylovBounds {
   int most_iterations = 100;
 };
 
+/// Vectors of solve_krylov that are kept from call to call, and the threads that sweep over them.
+template <class Krylov, class T, Execution E = Serial>
+class KrylovSpace {
+ public:
+  explicit KrylovSpace(const E& execution = {}) : loop_(execution) {}
+
+ private:
+  template <class E2>
+  struct NoLoop {
+    explicit NoLoop(const E2&) {}
+  };
+  template <class L, class E2>
+  struct Choose {
+    using Type = NoLoop<E2>;
+  };
+  template <class L, class E2>
+  requires requires { typename L::template Loop<T, E2>; }
+  struct Choose<L, E2> {
+    using Type = typename L::template Loop<T, E2>;
+  };
+
+  template <class K, class U, class Apply, class Precondition, Execution F>
+  friend SolveReport solve_krylov(Apply&&, Precondition&&, std::span<const U>, std::span<U>, const KrylovBounds&,
+                                  KrylovSpace<K, U, F>&);
+
+  AlignedVector<T> solution_, residual_;  // Eigen's vectors take memory anew when they get shorter
+  typename Choose<Krylov, E>::Type loop_;
+};
+
+namespace detail {
+
+/// One call of Eigen's loop, which takes its vectors anew. \return iterations
+template <class Krylov, class T, class Apply, class Precondition>
+int run_eigen(Apply& apply, Precondition& precondition, std::span<const T> b, std::span<T> x, double scale,
+              const KrylovBounds& bounds, SolveReport& report) {
+  using Matrix = MatrixFree<T, std::remove_reference_t<Apply>>;
+  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+  const Matrix matrix(apply, b.size());
+  typename Krylov::template Solver<T, Matrix> solver;
+  solver.preconditioner().set(precondition, scale, Krylov::every, Krylov::first);
+  solver.compute(matrix);
+  solver.setTolerance(static_cast<T>(bounds.tolerance));
+  solver.setMaxIterations(bounds.most_iterations - report.iterations);
+  if constexpr (requires { Krylov::restart; }) {
+    solver.set_restart(Krylov::restart);
+    // Its tolerance is relative to the first residual.
+    solver.setTolerance(static_cast<T>(std::min(0.5, 0.5 * bounds.tolerance / report.residual)));
+  }
+  const Eigen::Map<const Vector> right(b.data(), static_cast<Eigen::Index>(b.size()));
+  Eigen::Map<Vector> solution(x.data(), static_cast<Eigen::Index>(x.size()));
+  const Vector guess = solution;
+  solution = solver.solveWithGuess(right, guess);
+  const auto& on_the_way = solver.preconditioner().residuals();
+  report.residuals.insert(report.residuals.end(), on_the_way.begin(), on_the_way.end());
+  return static_cast<int>(solver.iterations());
+}
+
+}  // namespace detail
+
 /// Solves A x = b, A and the preconditioner being functions (in, out) of arrays as long as b, by Krylov =
 /// ConjugateGradient, BiCGStab or GMRES. x holds the first guess. The residual that counts is found from A itself:
 /// where that of the loop, which drifts by round-off or is a preconditioned one (GMRES), was too good, the loop starts
-/// again from where it came to. It keeps 4 (CG) to 11 (BiCGStab) vectors. \throws ConvergenceError if the tolerance is
-/// not reached; x is then unchanged. SizeError unless x is as long as b
-template <class Krylov, class T, class Apply, class Precondition>
+/// again from where it came to. Of vectors, BiCGStab has 9 in `space` and takes none; Eigen's loops take 7 (CG) or as
+/// many as the restart (GMRES) besides the 2 there. \throws ConvergenceError if the tolerance is not reached; x is
+/// then unchanged. SizeError unless x is as long as b
+template <class Krylov, class T, class Apply, class Precondition, Execution E>
 SolveReport solve_krylov(Apply&& apply, Precondition&& precondition, std::span<const T> b, std::span<T> x,
-                         const KrylovBounds& bounds = {}) {
-  using Matrix = detail::MatrixFree<T, std::remove_reference_t<Apply>>;
+                         const KrylovBounds& bounds, KrylovSpace<Krylov, T, E>& space) {
   using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
   require_size(x.size(), b.size(), "the solution");
-  const Matrix matrix(apply, b.size());
   const Eigen::Map<const Vector> right(b.data(), static_cast<Eigen::Index>(b.size()));
-  Vector solution = Eigen::Map<const Vector>(x.data(), static_cast<Eigen::Index>(x.size()));
+  space.solution_.resize(x.size());
+  space.residual_.resize(x.size());
+  Eigen::Map<Vector> solution(space.solution_.data(), right.size());
+  Eigen::Map<Vector> rest(space.residual_.data(), right.size());
+  std::copy_n(x.data(), x.size(), solution.data());
   const auto norm = static_cast<double>(right.norm());
   const double scale = norm > 0.0 ? norm : 1.0;
   if (norm == 0.0) solution.setZero();
-  Vector image(right.size());
   const auto residual = [&] {
-    apply(solution.data(), image.data());
-    return static_cast<double>((right - image).norm()) / scale;
+    apply(solution.data(), rest.data());
+    rest = right - rest;
+    return static_cast<double>(rest.norm()) / scale;
   };
   SolveReport report;
+  report.residuals.reserve(static_cast<std::size_t>(2 * std::min(bounds.most_iterations, 100)) + 8);
   report.residuals.push_back(report.residual = residual());
   for (double before = 0.0; !(report.residual <= bounds.tolerance);) {
     const bool stuck = before > 0.0 && !(report.residual < 0.5 * before);
@@ -215,26 +270,31 @@ SolveReport solve_krylov(Apply&& apply, Precondition&& precondition, std::span<c
           report.residuals);
     }
     before = report.residual;
-    typename Krylov::template Solver<T, Matrix> solver;
-    solver.preconditioner().set(precondition, scale, Krylov::every, Krylov::first);
-    solver.compute(matrix);
-    solver.setTolerance(static_cast<T>(bounds.tolerance));
-    solver.setMaxIterations(bounds.most_iterations - report.iterations);
-    if constexpr (requires { Krylov::restart; }) {
-      solver.set_restart(Krylov::restart);
-      // Its tolerance is relative to the first residual.
-      solver.setTolerance(static_cast<T>(std::min(0.5, 0.5 * bounds.tolerance / before)));
+    int taken = 0;
+    const std::span<T> improved(space.solution_);
+    if constexpr (requires { typename Krylov::template Loop<T, E>; }) {
+      taken = space
+                  .loop_(apply, precondition, std::span<const T>(space.residual_), improved, bounds.tolerance * scale,
+                         bounds.most_iterations - report.iterations,
+                         [&](double r) { report.residuals.push_back(r / scale); })
+                  .iterations;
+    } else {
+      taken = detail::run_eigen<Krylov, T>(apply, precondition, b, improved, scale, bounds, report);
     }
-    const Vector guess = solution;
-    solution = solver.solveWithGuess(right, guess);
-    report.iterations += std::max(1, static_cast<int>(solver.iterations()));
+    report.iterations += std::max(1, taken);
     report.residual = residual();
-    const auto& on_the_way = solver.preconditioner().residuals();
-    report.residuals.insert(report.residuals.end(), on_the_way.begin(), on_the_way.end());
     report.residuals.push_back(report.residual);
   }
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = solution[static_cast<Eigen::Index>(i)];
+  std::copy_n(solution.data(), x.size(), x.data());
   return report;
+}
+
+/// The same with vectors of its own.
+template <class Krylov, class T, class Apply, class Precondition>
+SolveReport solve_krylov(Apply&& apply, Precondition&& precondition, std::span<const T> b, std::span<T> x,
+                         const KrylovBounds& bounds = {}) {
+  KrylovSpace<Krylov, T> space;
+  return solve_krylov<Krylov, T>(apply, precondition, b, x, bounds, space);
 }
 
 }  // namespace cambium

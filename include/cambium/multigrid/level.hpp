@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -94,8 +95,22 @@ template <class T, int D>
 struct Level {
   explicit Level(const LevelGrid<D>& level_grid) : grid(level_grid) {}
 
+  /// Arrays of zeros, unless they are there.
   void take_arrays() {
-    for (auto* array : {&x, &b, &r}) array->assign(grid.size(), T(0));
+    for (auto* array : {&x, &b, &r}) {
+      if (array->size() != grid.size()) array->assign(grid.size(), T(0));
+    }
+  }
+  /// Gives up all unknowns; the arrays are zero then wherever they were not on given faces or around the lattice.
+  void clear() {
+    for (auto* array : {&x, &b, &r}) {
+      if (array->empty()) continue;
+      for (const auto& run : unknowns) std::fill_n(array->data() + run.at, run.count, T(0));
+    }
+    unknowns.clear();
+    regular.clear();
+    for (auto& rows : cut) rows.clear();
+    count = 0;
   }
 
   LevelGrid<D> grid;
