@@ -16,5 +16,6 @@
 #include <cambium/parallel.hpp>
 #include <cambium/particles.hpp>
 #include <cambium/poisson.hpp>
+#include <cambium/reaction.hpp>
 #include <cambium/simd.hpp>
 #include <cambium/time.hpp>
