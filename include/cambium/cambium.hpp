@@ -18,4 +18,5 @@
 #include <cambium/poisson.hpp>
 #include <cambium/reaction.hpp>
 #include <cambium/simd.hpp>
+#include <cambium/surface.hpp>
 #include <cambium/time.hpp>

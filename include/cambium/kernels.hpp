@@ -15,6 +15,8 @@
 #include <cambium/kernels/gaussian_pse.hpp>
 #include <cambium/kernels/hat.hpp>
 #include <cambium/kernels/kernel_checks.hpp>
+#include <cambium/kernels/lagrange4.hpp>
+#include <cambium/kernels/lagrange6.hpp>
 #include <cambium/kernels/lambda.hpp>
 #include <cambium/kernels/lambda21.hpp>
 #include <cambium/kernels/lambda22.hpp>

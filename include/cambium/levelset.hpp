@@ -45,6 +45,7 @@
 #include <cambium/levelset/interface_extremum.hpp>
 #include <cambium/levelset/interface_integral.hpp>
 #include <cambium/levelset/interface_projection.hpp>
+#include <cambium/levelset/interface_quadrature.hpp>
 #include <cambium/levelset/jet.hpp>
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/measures.hpp>

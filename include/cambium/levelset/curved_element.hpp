@@ -38,6 +38,18 @@ struct CurvedElement<2> {
     }
     return length;
   }
+  /// Calls f(point, normal) for the points of the rule that integrates over the element, the normal being as long as
+  /// the point's weight.
+  template <class F>
+  static void for_each_point(const Nodes& x, F&& f) {
+    const Vec<2> middle = (x[0] + x[1]) * 0.5;
+    const Vec<2> rise = x[2] - middle;
+    for (int q = 0; q < 4; ++q) {
+      const double s = q < 2 ? -node[q] : node[q - 2];
+      const Vec<2> along = (x[1] - x[0]) * 0.5 - 2.0 * s * rise;
+      f(middle + (x[1] - x[0]) * (0.5 * s) + (1.0 - s * s) * rise, Vec<2>{along[1], -along[0]} * weight[q % 2]);
+    }
+  }
 
  private:
   static constexpr std::array<double, 2> node = {0.33998104358485626, 0.86113631159405258};
@@ -121,6 +133,20 @@ struct CurvedElement<3> {
     add_strip(x, body);
     gap += body.moved(x[0]);
     return sum_of_roots(square);
+  }
+  /// Calls f(point, normal) for the points of the rule that integrates over the element, the normal being as long as
+  /// the point's weight.
+  template <class F>
+  static void for_each_point(const Nodes& x, F&& f) {
+    for (int q = 0; q < SevenNodeTriangle::points; ++q) {
+      Vec<3> y, u, v;
+      for (int n = 0; n < 7; ++n) {
+        y += table.value[n][q] * x[n];
+        u += table.along_u[n][q] * x[n];
+        v += table.along_v[n][q] * x[n];
+      }
+      f(y, area_vector<3>({Vec<3>{}, u, v}) * table.weight[q]);
+    }
   }
 
  private:

@@ -68,21 +68,32 @@ class InterfaceIntegral {
         corner[d] = static_cast<double>(place.node[d] + (before ? cells_.band().lattice().nodes()[d] : 0));
       }
       Moments<D> moments = CellMoments<D>::of(cell, place.inside);
-      add_elements(patch, place, cell, moments, sum);
+      for_each_element(patch, place, cell, sum.unresolved,
+                       [&](const typename Element::Nodes& x) { sum.area += Element::add_gap(x, moments); });
       sum.inside += moments.moved(corner);
       connect(place, cell, sum);
     });
     return sums;
   }
+  /// Calls f(place, nodes) for every curved element; nodes from the first node of its cell, in spacings.
+  template <Execution E, class F>
+  void for_each_element(const E& execution, F&& f) {
+    sides_.resize(static_cast<std::size_t>(execution.count()));
+    cells_.for_each_cell(execution, [&](const Place& place, const Patch<T, D>& patch, const CutCell<D>& cell) {
+      std::size_t unresolved = 0;
+      for_each_element(patch, place, cell, unresolved, [&](const typename Element::Nodes& x) { f(place, x); });
+    });
+  }
 
  private:
   using Element = CurvedElement<D>;
 
-  void add_elements(const Patch<T, D>& patch, const Place& place, const CutCell<D>& cell, Moments<D>& moments,
-                    BlockIntegral<D>& sums) {
+  template <class F>
+  void for_each_element(const Patch<T, D>& patch, const Place& place, const CutCell<D>& cell, std::size_t& unresolved,
+                        F&& f) {
     Vec<D> corner;
     for (int d = 0; d < D; ++d) corner[d] = static_cast<double>(place.node[d] - patch.first()[d]);
-    const auto above = [&](const Vec<D>& x) { return project(patch, x + corner, sums.unresolved); };
+    const auto above = [&](const Vec<D>& x) { return project(patch, x + corner, unresolved); };
     const auto above_side = [&](int a, int b) {
       const Vec<D> middle = (cell.point[a] + cell.point[b]) * 0.5;
       if (D == 2 || cell.edge[a] < 0 || cell.edge[b] < 0) return above(middle) - corner;
@@ -95,7 +106,7 @@ class InterfaceIntegral {
       for (int c = 0; c < D; ++c) x[c] = cell.point[v[c]];
       for (int s = 0; s < Element::sides; ++s) x[D + s] = above_side(v[Element::side[s][0]], v[Element::side[s][1]]);
       if constexpr (D == 3) x[6] = above((x[0] + x[1] + x[2]) / 3.0) - corner;
-      sums.area += Element::add_gap(x, moments);
+      f(x);
     }
   }
   /// The point on the interface next to x, or x itself if there is none.
