@@ -3,14 +3,15 @@
 #pragma once
 
 /// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp>,
-/// <cambium/multigrid/krylov.hpp> and <cambium/interface/dirichlet.hpp>: only their users compile Eigen. Programs link
-/// with FFTW.
+/// <cambium/multigrid/krylov.hpp>, <cambium/interface/dirichlet.hpp> and <cambium/models/implicit_diffusion.hpp>: only
+/// their users compile Eigen. Programs link with FFTW.
 #include <cambium/core.hpp>
 #include <cambium/interface.hpp>
 #include <cambium/interpolation.hpp>
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
 #include <cambium/levelset.hpp>
+#include <cambium/models.hpp>
 #include <cambium/multigrid.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>

@@ -50,8 +50,8 @@ class Doubled {
   void reject() { steps_ = 0; }
   void restart() { steps_ = 0; }
 
-  auto&& result() { return halves_.view(); }
-  auto&& error() { return whole_.view(); }
+  decltype(auto) result() { return halves_.view(); }
+  decltype(auto) error() { return whole_.view(); }
   /// Twice what the method itself takes; infinite before the first attempt.
   double longest_step() const {
     return radius_ > 0.0 ? 2.0 * Method::real_axis / radius_ : std::numeric_limits<double>::infinity();

@@ -84,8 +84,8 @@ class IMEX {
   void reject() {}
   void restart() {}
 
-  auto&& result() { return result_.view(); }
-  auto&& error() requires(error_order > 0) { return right_.view(); }
+  decltype(auto) result() { return result_.view(); }
+  decltype(auto) error() requires(error_order > 0) { return right_.view(); }
   double longest_step() const { return std::numeric_limits<double>::infinity(); }
   /// Calls of either part, and of solve, so far.
   std::size_t evaluations() const { return evaluations_; }

@@ -97,8 +97,8 @@ class RKC2 {
   void restart() { started_ = false; }
 
   /// Result and estimated error (eq. 2.6) of the last attempt.
-  auto&& result() { return buffer_[result_].view(); }
-  auto&& error() { return buffer_[previous_].view(); }
+  decltype(auto) result() { return buffer_[result_].view(); }
+  decltype(auto) error() { return buffer_[previous_].view(); }
   /// The longest step of the stages allowed; infinite before the first attempt.
   double longest_step() const {
     return radius_ > 0.0 ? 0.999 * detail::ChebyshevStages::reach(params_.most_stages) / radius_
