@@ -37,6 +37,7 @@ struct Carrier {
   template <class U, Execution E = OpenMP>
   void move(U&& u, double dt, const E& execution = {}) {
     advection.step(level_set, u, t, dt, execution);
+    level_set.reinitialise(execution);  // phi that a strain has left with other slopes moves the interface
     next.fit(level_set, execution);
     carried.resize(next.size());
     transport(band, c, u, t, dt, next, carried, execution);
@@ -44,13 +45,15 @@ struct Carrier {
     c.swap(carried);
     t += dt;
   }
-  void diffuse(double time) {
-    Values rate(c.size());
-    const int steps = static_cast<int>(std::ceil(time * band.spectral_radius() / RK4<Values>::real_axis));
-    RK4<Values> stepper(c);
+  /// \return steps taken
+  template <Execution E = OpenMP>
+  int diffuse(double time, const E& execution = {}) {
+    const int steps = static_cast<int>(std::ceil(time * band.spectral_radius(execution) / RK4<Values>::real_axis));
+    RK4<Values, E> stepper(c, execution);
     for (int s = 0; s < steps; ++s) {
-      stepper.step(c, t, time / steps, [&](const Values& y, double, Values& r) { band.laplacian(y, r); });
+      stepper.step(c, t, time / steps, [&](const Values& y, double, Values& r) { band.laplacian(y, r, execution); });
     }
+    return steps;
   }
   double total() {
     integral.fit(level_set, band);

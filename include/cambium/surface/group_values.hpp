@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 
-#include <cambium/levelset/jet.hpp>
+#include <cambium/surface/place_batch.hpp>
 #include <cambium/surface/sheet_plan.hpp>
 
 namespace cambium::detail {
@@ -16,6 +16,7 @@ class GroupValues {
   using Plan = SheetPlan<T, D>;
   using Group = typename Plan::Group;
   using Kernel = typename Stencil::Kernel;
+  using Batch = PlaceBatch<Kernel, T, D>;
 
   /// Makes room for `fields` values at each entry.
   void fit(const Plan& plan, int fields) {
@@ -73,8 +74,15 @@ class GroupValues {
   template <class F>
   static void interpolate(const Plan& plan, const Group& group, const T* values, F&& f) {
     const Index<D> stride = stride_of(group);
-    for (std::size_t k = group.first_value; k < group.first_value + group.values; ++k) {
-      f(k, Interpolant<Kernel, T, D>::value(values, stride, plan.of(plan.place, k)));
+    const std::size_t end = group.first_value + group.values;
+    for (std::size_t first = group.first_value; first < end; first += Batch::places) {
+      std::array<const T*, D> place;
+      for (int d = 0; d < D; ++d) place[d] = plan.place[d].data() + first;
+      const Batch batch(place, stride);
+      const std::size_t count = std::min(Batch::places, end - first);
+      alignas(64) std::array<T, Batch::places> value;
+      batch(values, count, value.data());
+      for (std::size_t p = 0; p < count; ++p) f(first + p, value[p]);
     }
   }
 

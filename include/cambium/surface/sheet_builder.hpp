@@ -61,6 +61,8 @@ class SheetBuilder {
     for (auto* columns : {&plan.offset, &plan.normal, &plan.place}) {
       for (auto& column : *columns) column.resize(size);
     }
+    // Places are read by whole vectors.
+    for (auto& column : plan.place) column.resize(size + 16, T(0));
     std::size_t first = 0;
     for (std::size_t g = 0; g < groups_.size(); ++g) first = write_group(plan, g, first);
     plan.anchors.swap(anchors_);
@@ -148,15 +150,26 @@ class SheetBuilder {
     const auto a = static_cast<std::int32_t>(anchors_.size());
     anchors_.push_back({cell, {}, point, first_anchor_(cell), none});
     first_anchor_.set(cell, a);
-    for (std::size_t n = 0; n < box_.size(); ++n) found_[n] = resolve(cell + box_[n].step, box_[n].step, point);
+    const Index<D> block = Numbers::block_of(cell);
+    const std::size_t shift = entry_of(cell - block * BlockShape<D>::extent);
+    const std::int32_t group = first_group_(block);
+    for (std::size_t n = 0; n < box_.size(); ++n) {
+      const auto known = group == none ? none : groups_[static_cast<std::size_t>(group)].table[shift + box_[n].entry];
+      found_[n] = resolve(cell + box_[n].step, moved(point, box_[n].step), known);
+    }
     anchors_.back().group = join_group(cell, a);
     return a;
   }
-  /// The value of a node on the sheet of an anchor. \param step  from the anchor's cell
-  std::int32_t resolve(const Index<D>& at, const Index<D>& step, const Point& anchor) {
+  /// A point relative to another node, `step` further.
+  static Point moved(Point point, const Index<D>& step) {
+    for (int d = 0; d < D; ++d) point.point[d] -= static_cast<T>(step[d]);
+    return point;
+  }
+  /// The value of a node on the sheet of a point, which is relative to the node. \param guess  a value of the node that
+  /// may be the one, or none
+  std::int32_t resolve(const Index<D>& at, const Point& sheet, std::int32_t guess) {
+    if (guess != none && sheet.same_sheet(values_[static_cast<std::size_t>(guess)].point)) return guess;
     const Index<D> node = wrapped(at);
-    Point sheet = anchor;  // relative to the node
-    for (int d = 0; d < D; ++d) sheet.point[d] -= static_cast<T>(step[d]);
     const std::int32_t known = first_value_(node);
     for (std::int32_t k = known; k != none; k = values_[static_cast<std::size_t>(k)].next) {
       if (sheet.same_sheet(values_[static_cast<std::size_t>(k)].point)) return k;

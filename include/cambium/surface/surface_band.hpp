@@ -14,6 +14,7 @@
 #include <cambium/surface/group_values.hpp>
 #include <cambium/surface/sheet_builder.hpp>
 #include <cambium/surface/surface_laplacian.hpp>
+#include <cambium/surface/surface_stencil.hpp>
 
 namespace cambium {
 
@@ -23,9 +24,11 @@ namespace cambium {
 /// Values are flat arrays of size() numbers: one for every node and sheet of the interface that stencils read. A node
 /// between two sheets that are near to each other has a value for each, so nothing leaks between them. Several species
 /// are Columns, one array each. Nothing is allocated after fit() but when there are more species or threads than ever.
-/// \tparam Stencil  SurfaceLaplacian<2> or <4>
+/// \tparam Stencil  SurfaceLaplacian<2> or <4>, see SurfaceStencil
 template <class Stencil = SurfaceLaplacian<2>, int D = 3, class T = double>
 class SurfaceBand {
+  static_assert((check_surface_stencil<Stencil>(), true));
+
  public:
   static constexpr int dimension = D;
   using Scalar = T;

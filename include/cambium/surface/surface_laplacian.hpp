@@ -20,10 +20,8 @@ struct SurfaceLaplacian {
   static constexpr int order = Order;
   /// Nodes that the stencil takes on either side.
   static constexpr std::ptrdiff_t reach = Order / 2;
-  /// Of the nodes that differ along so many axes, the stencil needs those within reach.
+  /// A node of the stencil differs from its middle along so many axes.
   static constexpr int axes = 1;
-  /// Whether the stencil needs the normals.
-  static constexpr bool normals = false;
   /// Interpolation at closest points: its error over h^2 is that of the stencil.
   using Kernel = std::conditional_t<Order == 2, Lagrange4, Lagrange6>;
 
