@@ -3,8 +3,8 @@
 #pragma once
 
 /// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp>,
-/// <cambium/multigrid/krylov.hpp> and <cambium/interface/dirichlet.hpp>: only their users compile Eigen. Programs link
-/// with FFTW.
+/// <cambium/multigrid/krylov.hpp>, <cambium/interface/dirichlet.hpp> and <cambium/models/implicit_diffusion.hpp>: only
+/// their users compile Eigen. Programs link with FFTW.
 #include <cambium/core.hpp>
 #include <cambium/farfield.hpp>
 #include <cambium/interface.hpp>
@@ -12,11 +12,13 @@
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
 #include <cambium/levelset.hpp>
+#include <cambium/models.hpp>
 #include <cambium/multigrid.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>
 #include <cambium/particles.hpp>
 #include <cambium/poisson.hpp>
+#include <cambium/reaction.hpp>
 #include <cambium/simd.hpp>
 #include <cambium/surface.hpp>
 #include <cambium/time.hpp>

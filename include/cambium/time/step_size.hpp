@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <limits>
 #include <ostream>
@@ -19,7 +20,14 @@ enum class Limit {
   strain,     ///< Lagrangian CFL: particle paths do not cross
   diffusion,  ///< stability of explicit diffusion on a lattice
   particles,  ///< stability of explicit diffusion by particle strength exchange
+  accuracy,   ///< the estimated error of a step reaches the tolerance
+  stability,  ///< the step times the spectral radius reaches the end of the method's stability interval
+  growth,     ///< a step is only so much longer than the one before
+  rejected,   ///< a longer step was tried and its error was too large
+  output,     ///< the step ends at the time asked for
 };
+/// How many limits there are.
+inline constexpr std::size_t limit_count = 11;
 
 /// The limit in words.
 constexpr const char* name(Limit limit) {
@@ -36,6 +44,16 @@ constexpr const char* name(Limit limit) {
       return "diffusion on the lattice";
     case Limit::particles:
       return "particle strength exchange";
+    case Limit::accuracy:
+      return "accuracy";
+    case Limit::stability:
+      return "stability";
+    case Limit::growth:
+      return "growth of the step";
+    case Limit::rejected:
+      return "a rejected step";
+    case Limit::output:
+      return "the end of the interval";
   }
   return "unknown limit";
 }
