@@ -229,6 +229,10 @@ BOOST_AUTO_TEST_CASE(the_explicit_limit_is_an_error_and_no_nan) {
   using Method = RKC2<Numbers>;
   BOOST_CHECK_THROW((Adaptive<Method, Numbers>(Method{}).advance(y, 0.0, 2.0, blows_up)), StabilityError);
   BOOST_TEST(std::isfinite(y[0]));
+  // Explicit rates of a step so long that their cubes overflow: adaptive steps take it for a rejected one.
+  auto split = rod.split();
+  BOOST_CHECK_EXCEPTION((IMEX<Numbers, ARK3>().attempt(u, 0.0, 1e200, split)), StabilityError,
+                        [](const StabilityError& e) { return e.limit() > 0.0; });
   BOOST_CHECK_THROW((RKC2<Numbers>(RKC2Params{.most_stages = 1})), ValueError);
   BOOST_CHECK_THROW((Adaptive<Method, Numbers>(Method{}, {.absolute = 0.0, .relative = 0.0})), ValueError);
 }

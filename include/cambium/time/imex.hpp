@@ -3,11 +3,14 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <limits>
 
 #include <cambium/time/imex_tableaux.hpp>
+#include <cambium/time/stability_error.hpp>
+#include <cambium/time/state_sums.hpp>
 #include <cambium/time/stepper.hpp>
 
 namespace cambium {
@@ -47,7 +50,8 @@ class IMEX {
   }
 
   /// Computes a step of dt > 0 with d(state)/dt = both parts of rhs, see SplitRate.
-  /// \throws ValueError for a dt that is not positive and finite; what the parts throw
+  /// \throws ValueError for a dt that is not positive and finite, StabilityError if the explicit part grows beyond all
+  ///         bounds; what the parts throw
   template <class F>
   void attempt(const S& state, double t, double dt, F&& rhs) {
     detail::require_step(t, dt);
@@ -61,6 +65,7 @@ class IMEX {
       detail::combine<S>(execution_, y, {1.0}, right);
       auto&& stiff = implicit_rate_[i].view();
       if (implicit > 0.0) {
+        require_finite(right, now, dt);
         rhs.solve(implicit * dt, now, StateTraits<S>::const_view(right), y);
         ++solves_;
         const double scale = 1.0 / (implicit * dt);
@@ -101,6 +106,14 @@ class IMEX {
       explicit_rate_[i].fit(state);
       implicit_rate_[i].fit(state);
     }
+  }
+  /// Where the explicit rates of a step that is too long have grown beyond all bounds, there is nothing to solve for.
+  template <class Right>
+  void require_finite(const Right& right, double t, double dt) const {
+    if (std::isfinite(detail::length<S>(execution_, right))) return;
+    throw StabilityError(detail::message("a step of ", dt, " grows beyond all bounds by its explicit part, at time ", t,
+                                         ": take shorter steps"),
+                         dt, 0.1 * dt);
   }
   /// to := state + dt times the first `terms` rates with their weights.
   template <class Row, class To>
