@@ -7,11 +7,9 @@
 // rounds counts. The first call, with kernels and plans, is written down as well.
 //
 //     work_precision_poisson --json raw.json     then scripts/draw_work_precision_poisson.py raw.json
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -22,6 +20,8 @@
 #include <cambium/poisson.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
+#include "support/median.hpp"
 
 using namespace cambium;
 
@@ -48,11 +48,6 @@ struct Gaussian {
     }
   }
 };
-
-double median(std::vector<double> numbers) {
-  std::nth_element(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2), numbers.end());
-  return numbers[numbers.size() / 2];
-}
 
 struct Entrant {
   std::string name;
@@ -146,23 +141,19 @@ int main(int argc, char** argv) {
   std::vector<std::ptrdiff_t> flat{32, 64, 128, 256, 512};
   std::vector<std::ptrdiff_t> deep{16, 32, 64, 128};
   int rounds = 9;
-  bool quick = false;
-  std::string json;
-  CLI::App app("Error against time of Poisson's equation in free space");
-  app.add_option("--resolutions", flat, "cells along an axis in 2D");
-  app.add_option("--resolutions-3d", deep, "cells along an axis in 3D");
-  app.add_option("--rounds", rounds, "how often each is timed");
-  app.add_option("--json", json, "write the results to this file");
-  app.add_flag("--quick", quick, "coarse lattices, to see that it runs");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) {
+  bench::Command command("Error against time of Poisson's equation in free space");
+  command.app.add_option("--resolutions", flat, "cells along an axis in 2D");
+  command.app.add_option("--resolutions-3d", deep, "cells along an axis in 3D");
+  command.app.add_option("--rounds", rounds, "how often each is timed");
+  CLI11_PARSE(command.app, argc, argv);
+  if (command.quick) {
     flat = {16, 32};
     deep = {16};
     rounds = 1;
   }
   nlohmann::json table = nlohmann::json::array();
   bench::run<2>(flat, rounds, table);
-  if (BENCH_SMOKE == 0 || quick) bench::run<3>(deep, rounds, table);
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"rounds", rounds}, {"runs", table}}.dump(1) << '\n';
+  if (BENCH_SMOKE == 0 || command.quick) bench::run<3>(deep, rounds, table);
+  command.write({{"rounds", rounds}, {"runs", table}});
   return 0;
 }

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace bench {
+
+/// The command line of a program that writes its results as JSON and has a quick variant.
+struct Command {
+  explicit Command(const std::string& what) : app(what) {
+    app.add_option("--json", json, "write the results to this file");
+    app.add_flag("--quick", quick, "coarse lattices, to see that it runs");
+  }
+  void write(const nlohmann::json& results) const {
+    if (!json.empty()) std::ofstream(json) << results.dump(1) << '\n';
+  }
+
+  CLI::App app;
+  std::string json;
+  bool quick = false;
+};
+
+}  // namespace bench
