@@ -11,6 +11,7 @@
 #include <cambium/io.hpp>
 #include <cambium/kernels.hpp>
 #include <cambium/levelset.hpp>
+#include <cambium/models.hpp>
 #include <cambium/multigrid.hpp>
 #include <cambium/operators.hpp>
 #include <cambium/parallel.hpp>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <ostream>
 
 #include <cambium/core/error.hpp>
@@ -19,6 +20,7 @@ enum class Limit {
   strain,     ///< Lagrangian CFL: particle paths do not cross
   diffusion,  ///< stability of explicit diffusion on a lattice
   particles,  ///< stability of explicit diffusion by particle strength exchange
+  tension,    ///< stability of explicit steps under surface tension
 };
 
 /// The limit in words.
@@ -36,6 +38,8 @@ constexpr const char* name(Limit limit) {
       return "diffusion on the lattice";
     case Limit::particles:
       return "particle strength exchange";
+    case Limit::tension:
+      return "surface tension";
   }
   return "unknown limit";
 }
@@ -108,6 +112,18 @@ inline StepSize exchange_limit(double courant, double width, double viscosity, i
   detail::require_rate(kernel_order, "order of the kernel", false);
   return detail::limited(courant * real_axis * width * width / (2.0 * kernel_order),
                          detail::require_rate(viscosity, "viscosity", true), Limit::particles);
+}
+
+/// Explicit surface tension in a potential flow: waves of the interface of wave number k decay at m k^3, and the
+/// shortest that a lattice carries has k = pi / h, so dt = C s (h / pi)^3 / m, where s is the stepper's real_axis.
+/// \throws ValueError unless C, h and s are positive and m is not negative, all finite
+inline StepSize tension_limit(double courant, double spacing, double mobility, double real_axis = 2.0) {
+  detail::require_rate(courant, "stiffness number", false);
+  detail::require_rate(spacing, "lattice spacing", false);
+  detail::require_rate(real_axis, "stability bound of the stepper on the real axis", false);
+  const double length = spacing / std::numbers::pi;
+  return detail::limited(courant * real_axis * length * length * length,
+                         detail::require_rate(mobility, "mobility", true), Limit::tension);
 }
 
 /// A largest step set by the caller, e.g. the time that is left. \throws ValueError unless positive and finite
