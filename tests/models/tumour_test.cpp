@@ -3,6 +3,7 @@
 #define BOOST_TEST_MODULE tumour
 #include <boost/test/unit_test.hpp>
 
+#include "support/order.hpp"
 #include "tumour_scenes.hpp"
 
 using namespace cambium;
@@ -16,6 +17,18 @@ BOOST_AUTO_TEST_CASE(discs_grow_as_the_exact_equation_says) {
   const double fine = radius_error<Disc>(48, 0.1, 2.35800262640, 1.0);
   BOOST_TEST(std::abs(fine) < 1e-3);
   BOOST_TEST(std::abs(fine) < 0.4 * std::abs(coarse));
+}
+
+BOOST_AUTO_TEST_CASE(steps_are_of_second_order_in_time) {
+  const auto at = [](int steps) {
+    Disc disc(lattice<2>(32), ball<2>(2.0), {.parameters = {.tension = 0.005}, .courant = 10.0});
+    for (int i = 0; i < steps; ++i) disc.step(0.1 / steps);
+    return radius_of(disc);
+  };
+  const double few = at(4), more = at(8), many = at(16);
+  const double order = support::observed_order(few - more, more - many);
+  BOOST_TEST_MESSAGE("R(0.1) " << few << ' ' << more << ' ' << many << ", order " << order);
+  BOOST_TEST(order > 1.6);
 }
 
 BOOST_AUTO_TEST_CASE(a_tumour_that_reaches_the_box_stops_as_it_was_before_the_step) {
