@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <ostream>
 
 #include <cambium/core/error.hpp>
@@ -25,9 +26,10 @@ enum class Limit {
   growth,     ///< a step is only so much longer than the one before
   rejected,   ///< a longer step was tried and its error was too large
   output,     ///< the step ends at the time asked for
+  tension,    ///< stability of explicit steps under surface tension
 };
 /// How many limits there are.
-inline constexpr std::size_t limit_count = 11;
+inline constexpr std::size_t limit_count = 12;
 
 /// The limit in words.
 constexpr const char* name(Limit limit) {
@@ -54,6 +56,8 @@ constexpr const char* name(Limit limit) {
       return "a rejected step";
     case Limit::output:
       return "the end of the interval";
+    case Limit::tension:
+      return "surface tension";
   }
   return "unknown limit";
 }
@@ -126,6 +130,18 @@ inline StepSize exchange_limit(double courant, double width, double viscosity, i
   detail::require_rate(kernel_order, "order of the kernel", false);
   return detail::limited(courant * real_axis * width * width / (2.0 * kernel_order),
                          detail::require_rate(viscosity, "viscosity", true), Limit::particles);
+}
+
+/// Explicit surface tension in a potential flow: waves of the interface of wave number k decay at m k^3, and the
+/// shortest that a lattice carries has k = pi / h, so dt = C s (h / pi)^3 / m, where s is the stepper's real_axis.
+/// \throws ValueError unless C, h and s are positive and m is not negative, all finite
+inline StepSize tension_limit(double courant, double spacing, double mobility, double real_axis = 2.0) {
+  detail::require_rate(courant, "stiffness number", false);
+  detail::require_rate(spacing, "lattice spacing", false);
+  detail::require_rate(real_axis, "stability bound of the stepper on the real axis", false);
+  const double length = spacing / std::numbers::pi;
+  return detail::limited(courant * real_axis * length * length * length,
+                         detail::require_rate(mobility, "mobility", true), Limit::tension);
 }
 
 /// A largest step set by the caller, e.g. the time that is left. \throws ValueError unless positive and finite

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cambium/models/tumour/jump_pressure.hpp>
+#include <cambium/models/tumour/policy.hpp>
+#include <cambium/poisson/free_space.hpp>
+
+namespace cambium {
+
+/// Lap p = 0 outside, in free space: p falls off (like the logarithm in the plane). The default.
+struct FreeSpace {
+  using Kind = tumour_kind::Outside;
+  static constexpr bool reaches_outside = true;
+
+  template <int D, class K>
+  using Method = detail::JumpPressure<D, FreeSpacePoisson<D, double, OpenMP>, K>;
+};
+
+}  // namespace cambium

@@ -1,0 +1,175 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include <cambium/kernels/lambda.hpp>
+#include <cambium/levelset/closest_points.hpp>
+#include <cambium/levelset/field_patch.hpp>
+#include <cambium/levelset/geometry/at_closest_points.hpp>
+#include <cambium/models/tumour/parameters.hpp>
+#include <cambium/models/tumour/sides.hpp>
+
+namespace cambium {
+
+/// Seconds on the wall that the parts of steps have taken so far.
+struct TumourTimes {
+  double geometry = 0.0;  ///< closest points if the reinitialisation leaves none, normals, curvature
+  double nutrient = 0.0;
+  double pressure = 0.0;  ///< with the speed that follows from it
+  double implicit = 0.0;  ///< solving for the stiff part of the surface tension
+  double motion = 0.0;    ///< moving phi and making it a distance again
+
+  double total() const { return geometry + nutrient + pressure + implicit + motion; }
+};
+
+namespace detail {
+
+/// Adds what a scope takes to a number of seconds.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// From the interface to its speed: geometry, nutrient, pressure, V = -dp/dn at the closest point of every node of the
+/// band (NaN at nodes without one).
+template <int D, class Nutrient, class Outside, class Core, class Filter>
+class TumourGrowth {
+ public:
+  using Kernel = Lambda<4, 4>;
+  using Band = NarrowBand<double, D>;
+  using Points = ClosestPoints<Kernel, double, D>;
+  using Values = Field<double, D, Sparse>;
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  TumourGrowth(const Lattice<D>& lattice, double half_width, const TumourParameters& parameters,
+               const OpenMP& execution)
+      : parameters_(parameters),
+        execution_(execution),
+        geometry_(lattice),
+        nutrient_(lattice, execution),
+        outside_(lattice, half_width + 1.0, execution),
+        filter_(lattice),
+        c_(lattice, 1.0),
+        p_(lattice),
+        source_(lattice),
+        drop_(lattice),
+        speed_(lattice, unknown) {}
+
+  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest
+  template <class L>
+  void evaluate(const L& level_set, double elapsed) {
+    {
+      const Stopwatch watch(times_.geometry);
+      find_geometry(level_set);
+    }
+    const Band& band = level_set.band();
+    {
+      const Stopwatch watch(times_.nutrient);
+      nutrient_.solve(band, elapsed, c_);
+    }
+    const Stopwatch watch(times_.pressure);
+    find_source(band);
+    take_blocks(drop_, band);
+    start_speed(band, speed_);
+    for (std::size_t b = 0; b < band.blocks(); ++b) {
+      for (std::size_t i = 0; i < Band::volume; ++i) {
+        drop_.block(b)[i] = parameters_.tension * geometry_.mean.block(b)[i];
+      }
+    }
+    outside_.attach(band, *points_, geometry_);
+    outside_.solve(source_, drop_, parameters_.growth * (1.0 - parameters_.apoptosis), p_, speed_);
+    filter_(band, speed_, execution_);
+  }
+  void accept() { nutrient_.accept(c_); }
+
+  /// What moving by x for a unit of time would change of the speed by the surface tension: with
+  /// kappa' = -Lap_Gamma x - |A|^2 x, the speed due to a drop of gamma kappa' of the pressure.
+  void tension_response(const Band& band, const Values& x, Values& response) {
+    take_blocks(drop_, band);
+    patches_.resize(static_cast<std::size_t>(execution_.count()));
+    const double h = band.spacing();
+    for_each_piece_by_worker(execution_, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
+      FieldPatch<double, D>& patch = patches_[worker];
+      for_each_closest_point(
+          *points_, band, b, x, patch,
+          [&](std::size_t i, const Vec<D>& u) {
+            const Jet<double, D> jet = Interpolant<Kernel, double, D>::jet(patch.data(0), patch.stride(), u);
+            double laplacian = 0.0;
+            const Vec<D>& n = geometry_.normal.block(b)[i];
+            for (int d = 0; d < D; ++d) laplacian += (jet.hessian[d][d] - n[d] * dot(jet.hessian[d], n)) / (h * h);
+            const double mean = geometry_.mean.block(b)[i];
+            double square = mean * mean;  // sum of the squares of the principal curvatures
+            if constexpr (D == 3) square -= 2.0 * geometry_.gaussian.block(b)[i];
+            drop_.block(b)[i] = -parameters_.tension * (laplacian + square * jet.value);
+          },
+          [&](std::size_t i) { drop_.block(b)[i] = 0.0; });
+    });
+    start_speed(band, response);
+    outside_.respond(drop_, response);
+  }
+  /// Gives a field the blocks of the band, 0 where there is a closest point and NaN elsewhere.
+  void start_speed(const Band& band, Values& speed) const {
+    take_blocks(speed, band);
+    for (std::size_t b = 0; b < band.blocks(); ++b) {
+      for (std::size_t i = 0; i < Band::volume; ++i) speed.block(b)[i] = points_->found(b, i) ? 0.0 : unknown;
+    }
+  }
+
+  const TumourParameters& parameters() const { return parameters_; }
+  const Field<double, D>& nutrient() const { return c_; }
+  const Field<double, D>& pressure() const { return p_; }
+  const Values& speed() const { return speed_; }
+  const BandGeometry<double, D>& geometry() const { return geometry_; }
+  const Points& points() const { return *points_; }
+  TumourTimes& times() { return times_; }
+  const TumourTimes& times() const { return times_; }
+  std::size_t unresolved() const { return outside_.unresolved(); }
+
+ private:
+  template <class L>
+  void find_geometry(const L& level_set) {
+    const Band& band = level_set.band();
+    if constexpr (requires {
+                    { level_set.method().points() } -> std::same_as<const Points&>;
+                  }) {
+      points_ = &level_set.method().points();
+    } else {
+      own_points_.find(band, static_cast<double>(band.half_width()), execution_);
+      points_ = &own_points_;
+    }
+    curvature_(band, *points_, geometry_, execution_);
+  }
+  void find_source(const Band& band) {
+    for_each_side(band, execution_, [&](std::size_t i, bool inside) {
+      source_[i] = inside ? Core::source(parameters_, c_, band, i) : 0.0;
+    });
+  }
+
+  TumourParameters parameters_;
+  OpenMP execution_;
+  TumourTimes times_;
+  Points own_points_;
+  const Points* points_ = nullptr;
+  typename AtClosestPoints<Kernel>::template Method<double, D> curvature_;
+  BandGeometry<double, D> geometry_;
+  typename Nutrient::template Method<D> nutrient_;
+  typename Outside::template Method<D, Kernel> outside_;
+  typename Filter::template Method<D> filter_;
+  Field<double, D> c_, p_, source_;
+  Values drop_, speed_;
+  std::vector<FieldPatch<double, D>> patches_;
+};
+
+}  // namespace detail
+}  // namespace cambium
