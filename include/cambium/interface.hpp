@@ -6,6 +6,7 @@
 /// spread from it. <cambium/interface/dirichlet.hpp> is to be included by name: it compiles Eigen.
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
+#include <cambium/interface/cut_rows.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
 #include <cambium/interface/interface_gradient.hpp>
 #include <cambium/interface/jump.hpp>
