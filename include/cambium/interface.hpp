@@ -10,6 +10,7 @@
 #include <cambium/interface/cell_geometry.hpp>
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
+#include <cambium/interface/cut_rows.hpp>
 #include <cambium/interface/finite_volumes.hpp>
 #include <cambium/interface/images.hpp>
 #include <cambium/interface/immersed_boundary.hpp>

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include <cambium/interface/cut_domain.hpp>
+#include <cambium/interface/cut_rows.hpp>
 #include <cambium/multigrid/hierarchy.hpp>
 
 namespace cambium::detail {
