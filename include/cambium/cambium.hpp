@@ -3,8 +3,8 @@
 #pragma once
 
 /// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp>,
-/// <cambium/multigrid/krylov.hpp> and <cambium/interface/dirichlet.hpp>: only their users compile Eigen. Programs link
-/// with FFTW.
+/// <cambium/multigrid/krylov.hpp>, <cambium/interface/dirichlet.hpp> and <cambium/models/tumour.hpp>: only their users
+/// compile Eigen. Programs link with FFTW.
 #include <cambium/core.hpp>
 #include <cambium/interface.hpp>
 #include <cambium/interpolation.hpp>
