@@ -3,8 +3,9 @@
 #pragma once
 
 /// \file cambium.hpp  The whole library, but for <cambium/operators/dcpse.hpp>, <cambium/multigrid/multigrid.hpp>,
-/// <cambium/multigrid/krylov.hpp>, <cambium/interface/dirichlet.hpp> and <cambium/models/implicit_diffusion.hpp>: only
-/// their users compile Eigen. Programs link with FFTW.
+/// <cambium/multigrid/krylov.hpp>, <cambium/interface/dirichlet.hpp>, <cambium/interface/neumann.hpp>,
+/// <cambium/interface/right_hand_side_gmres.hpp>, <cambium/models/implicit_diffusion.hpp> and
+/// <cambium/models/tumour.hpp>: only their users compile Eigen. Programs link with FFTW.
 #include <cambium/core.hpp>
 #include <cambium/farfield.hpp>
 #include <cambium/interface.hpp>

@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include <cambium/core/sparse.hpp>
 #include <cambium/models/tumour/policy.hpp>
+#include <cambium/parallel/execution.hpp>
 
 namespace cambium {
 

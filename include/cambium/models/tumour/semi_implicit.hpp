@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <cambium/models/tumour/adams_bashforth.hpp>
+#include <cambium/models/tumour/growth.hpp>
 #include <cambium/models/tumour/short_gmres.hpp>
 
 namespace cambium {
