@@ -79,8 +79,9 @@ struct FaceCentroid {
         if (!open(step[e])) aside[e] = 0.0;
       }
       if constexpr (D == 3) {
-        if (aside[0] > 0.0 && aside[1] > 0.0 && !open(step[0] + step[1]))
+        if (aside[0] > 0.0 && aside[1] > 0.0 && !open(step[0] + step[1])) {
           (aside[0] < aside[1] ? aside[0] : aside[1]) = 0.0;
+        }
       }
       for (std::size_t k = 0; k < points; ++k) {
         double weight = cut.open;

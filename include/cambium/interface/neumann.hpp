@@ -269,8 +269,9 @@ class Neumann {
       excess[domain_.part[k]] += domain_.share[domain_.unknowns[k].at] * solution_[k];
       if (square > 0.0) excess[domain_.part[k]] += -right_[k] / square;
     }
-    for (std::size_t k = 0; k < unknowns(); ++k)
+    for (std::size_t k = 0; k < unknowns(); ++k) {
       solution_[k] -= excess[domain_.part[k]].value() / domain_.volume_of_part[domain_.part[k]];
+    }
   }
 
   Lattice<D> lattice_;

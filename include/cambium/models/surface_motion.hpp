@@ -99,8 +99,9 @@ class GrowthBySpecies {
         const Index<D> node = narrow.values().node(b, i);
         if (!points.found(b, i) || !geometry_->defined(b, i) || !narrow.lattice().contains(node)) continue;
         Vec<D> point;
-        for (int d = 0; d < D; ++d)
+        for (int d = 0; d < D; ++d) {
           point[d] = static_cast<double>(node[d]) + static_cast<double>(points.offset(b, i)[d]);
+        }
         place_.push_back({b, i, point});
       }
     }

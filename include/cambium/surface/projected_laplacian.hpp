@@ -30,7 +30,7 @@ class ProjectedLaplacian {
   /// Takes the interface of a band: to be called when it has moved. \throws BandError if the band is too thin
   template <Execution E = OpenMP>
   void fit(const Band& band, const E& execution = {}) {
-    const double needed = Order / 2 * std::numbers::sqrt2 + 1.0;
+    const double needed = 0.5 * Order * std::numbers::sqrt2 + 1.0;
     if (static_cast<double>(band.half_width()) < needed * band.spacing()) {
       throw BandError(detail::message(
           "half width of the band is ", static_cast<double>(band.half_width()) / band.spacing(),

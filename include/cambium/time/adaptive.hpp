@@ -151,8 +151,9 @@ class Adaptive {
       try {
         method_.attempt(state, t, dt, rhs);
         const double error = error_norm(state);
-        if (error <= 1.0)
+        if (error <= 1.0) {
           return {dt * std::clamp(0.9 * std::pow(std::max(error, 1e-9), -1.0 / p), 1.0, 10.0), Limit::accuracy};
+        }
       } catch (const StabilityError& failure) {
         if (!(failure.limit() > 0.0)) throw;
       }
