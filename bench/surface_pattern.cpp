@@ -124,8 +124,8 @@ json selection_run(const Vec<2>& diffusivity, double radius, std::ptrdiff_t cell
   using Pattern = SurfacePattern<LinearisedBrusselator>;
   Pattern pattern(sphere(radius, cells), varea_spots, diffusivity, {},
                   {.steps = {.absolute = 1e-3 * amplitude, .relative = 1e-3}});
-  const SmoothNoise<3> noise(static_cast<std::uint64_t>(seed), 12.0 / radius);
-  const SmoothNoise<3> other(static_cast<std::uint64_t>(seed) + 1000, 12.0 / radius);
+  const bench::HarmonicNoise noise(static_cast<std::uint64_t>(seed), 12);
+  const bench::HarmonicNoise other(static_cast<std::uint64_t>(seed) + 1000, 12);
   const Vec<3> axis{2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0};
   const auto turned = [&](const Vec<3>& x) {  // Rodrigues
     const Vec<3> r = x - centre;
@@ -154,15 +154,16 @@ json selection_run(const Vec<2>& diffusivity, double radius, std::ptrdiff_t cell
           {"off", off},       {"range", {low, high}}, {"mean", a[0]},          {"seconds", seconds}};
 }
 
+/// Every seed on every lattice, and turned against the coarsest.
 json selection(const std::vector<std::ptrdiff_t>& cells, int seeds, double end, double amplitude) {
   json result = json::array();
   for (int seed = 1; seed <= seeds; ++seed) {
-    result.push_back(selection_run(varea_diffusivities, 2.0, cells[0], seed, 0.0, end, amplitude));
+    for (const std::ptrdiff_t n : cells) {
+      result.push_back(selection_run(varea_diffusivities, 2.0, n, seed, 0.0, end, amplitude));
+    }
+    if (cells.size() > 1)
+      result.push_back(selection_run(varea_diffusivities, 2.0, cells[0], seed, 1.0, end, amplitude));
   }
-  for (std::size_t n = 1; n < cells.size(); ++n) {
-    result.push_back(selection_run(varea_diffusivities, 2.0, cells[n], 3, 0.0, end, amplitude));
-  }
-  if (cells.size() > 1) result.push_back(selection_run(varea_diffusivities, 2.0, cells[0], 3, 1.0, end, amplitude));
   return result;
 }
 
@@ -285,9 +286,9 @@ int main(int argc, char** argv) {
   app.add_flag("--printed", with_printed, "the same for the printed parameters on the unit sphere");
   app.add_flag("--cost", with_cost, "cost of a steady pattern by different steppers");
   app.add_flag("--quick", quick, "little of everything");
-  app.add_option("--cells", cells, "cells along an edge; the first for all seeds, the others for one");
+  app.add_option("--cells", cells, "cells along an edge");
   app.add_option("--seeds", seeds, "number of seeds");
-  app.add_option("--amplitude", amplitude, "root mean square of the noise that patterns start from");
+  app.add_option("--amplitude", amplitude, "of the harmonics of the noise that patterns start from");
   app.add_option("--end", end, "longest time of a pattern");
   app.add_option("--json", file, "write the figures to this file");
   CLI11_PARSE(app, argc, argv);

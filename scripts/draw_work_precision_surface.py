@@ -65,6 +65,14 @@ def write_tables(data):
         for order in (2, 4):
             values = [run[key] for run in series(data["runs"], order, **wanted)]
             rows.append([title, order] + [f"{v:.2f}" if key == "seconds" else f"{v:.1e}" for v in values])
+    on_particles = sorted(data["particles"], key=lambda run: run["cells"])
+    for title, key in (("growing on particles, c", "largest"), ("growing on particles, strengths", "strengths")):
+        rows.append([title, "M6"] + [f"{run[key]:.1e}" for run in on_particles])
+    grown = [series(data["runs"], order, case="growing") for order in (2, 4)]
+    for title, values in (("growing, seconds", grown[0]), ("growing, seconds", grown[1]),
+                          ("growing on particles, seconds", on_particles)):
+        order = values[0].get("order", "M6")
+        rows.append([title, order] + [f"{run['seconds']:.2f}" for run in values])
     head = ["what", "order"] + [f"{n} cells" for n in cells]
     bench_report.replace_between("work_precision_surface", bench_report.table(head, rows), PAGE)
     rows = [[r["every"] if r["every"] <= 128 else "never", f"{r['closest_point']:.1e}", f"{r['pde']:.1e}"]

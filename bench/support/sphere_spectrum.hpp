@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include <cambium/core/vec.hpp>
+#include <cambium/levelset/shapes/amorphous.hpp>
 
 namespace bench {
 
@@ -37,6 +40,29 @@ inline void harmonics(const cambium::Vec<3>& x, int most, std::vector<double>& v
     }
   }
 }
+
+/// Noise on a sphere: every harmonic up to a degree with an amplitude of its own, normally distributed with mean zero
+/// and variance one. It is a function of the direction alone, so that lattices of any spacing and orientation share it.
+class HarmonicNoise {
+ public:
+  HarmonicNoise(std::uint64_t seed, int most)
+      : most_(most), amplitude_(static_cast<std::size_t>((most + 1) * (most + 1))) {
+    cambium::detail::SplitMix64 random(seed);
+    for (double& a : amplitude_) {  // Box and Muller
+      const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+      a = radius * std::cos(2.0 * std::numbers::pi * random.uniform());
+    }
+  }
+  double operator()(const cambium::Vec<3>& direction) const {
+    thread_local std::vector<double> value;
+    harmonics(direction, most_, value);
+    return std::inner_product(value.begin(), value.end(), amplitude_.begin(), 0.0) * 0.5 * std::numbers::inv_sqrtpi;
+  }
+
+ private:
+  int most_;
+  std::vector<double> amplitude_;
+};
 
 /// Amplitudes of the harmonics of values on a sphere, with the weights of a surface integral.
 template <class Band>

@@ -77,6 +77,11 @@ constexpr T dot(const Vec<D, T>& a, const Vec<D, T>& b) {
   return sum;
 }
 
+template <class T>
+constexpr Vec<3, T> cross(const Vec<3, T>& a, const Vec<3, T>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 template <int D, class T>
 T norm(const Vec<D, T>& a) {
   return std::sqrt(dot(a, a));

@@ -128,9 +128,6 @@ class SurfaceTransport {
       return norm(cross(u, v));
     }
   }
-  static Vec<3, T> cross(const Vec<3, T>& a, const Vec<3, T>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
   template <class From, class To, class E>
   void read(const Band& before, const From& from, const Band& after, const To& to, const E& execution) {
     const auto& plan = before.plan();

@@ -35,10 +35,6 @@ struct SurfaceMesh {
 using TriangleMesh = SurfaceMesh<3>;
 using Polyline = SurfaceMesh<2>;
 
-inline Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Outward normal of a facet, as long as its measure: the length of a segment, twice the area of a triangle.
 inline Vec<2> facet_normal(const SurfaceMesh<2>& mesh, std::size_t facet) {
   const Vec<2> along = mesh.corner(facet, 1) - mesh.corner(facet, 0);
