@@ -18,7 +18,8 @@ namespace cambium {
 
 /// Options of Adaptive.
 struct AdaptiveParams {
-  /// A step may err by absolute + relative |c|, in the root mean square over all numbers.
+  /// A step may err by absolute + relative |c|, in the root mean square over all numbers; c is the state before the
+  /// step, as one that grows beyond all bounds would allow itself any error.
   double absolute = 1e-4;
   double relative = 1e-4;
   /// The first step; 0: found from the first rates.
@@ -163,15 +164,14 @@ class Adaptive {
     throw too_short(dt, t);
   }
   double error_norm(const S& state) {
-    auto&& result = method_.result();
     auto&& error = method_.error();
     const double sum = detail::sum_numbers<S>(
         execution_,
-        [&](double e, double a, double b) {
-          const double allowed = params_.absolute + params_.relative * std::max(std::abs(a), std::abs(b));
+        [&](double e, double c) {
+          const double allowed = params_.absolute + params_.relative * std::abs(c);
           return e * e / (allowed * allowed);
         },
-        error, state, result);
+        error, state);
     return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(detail::count_numbers(state), 1)));
   }
   static void note(AdaptiveReport& report, const StepSize& step, double error) {
