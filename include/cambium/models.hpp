@@ -6,6 +6,7 @@
 /// name: <cambium/models/implicit_diffusion.hpp> and <cambium/models/tumour.hpp>.
 #include <cambium/models/band_velocity.hpp>
 #include <cambium/models/chemistry_steps.hpp>
+#include <cambium/models/motion_by_species.hpp>
 #include <cambium/models/smooth_noise.hpp>
 #include <cambium/models/surface_chemistry.hpp>
 #include <cambium/models/surface_motion.hpp>

@@ -28,7 +28,7 @@ struct SurfacePatternParams {
 ///   dc_s/dt + div(c_s u) = F_s(c) + D_s div((1 - n n) grad c_s)
 /// Moving surfaces take Strang's splitting: half a step of chemistry, one of motion, half a step of chemistry; a
 /// velocity that depends on surface or species is that of the middle of the step (midpoint rule). Second order in time.
-/// \tparam Motion   FixedSurface, PrescribedMotion<U>, GrowthBySpecies, CurvatureMotion
+/// \tparam Motion   FixedSurface, PrescribedMotion<U>, GrowthBySpecies, MotionBySpecies<F>, CurvatureMotion
 /// \tparam Steps    StabilisedSteps, ImplicitDiffusion<ARK3>, ExplicitSteps<M>
 template <Kinetics K, class Motion = FixedSurface, class Steps = StabilisedSteps, class Stencil = SurfaceLaplacian<2>,
           int D = 3, class T = double, Execution E = OpenMP>
@@ -104,6 +104,7 @@ class SurfacePattern {
   Band& band() { return band_; }
   const Band& band() const { return band_; }
   const K& kinetics() const { return kinetics_; }
+  const Motion& motion() const { return motion_; }
   /// Concentrations at the values of the band; they may be changed.
   Columns<species, T> state() {
     std::array<T*, static_cast<std::size_t>(species)> first;
