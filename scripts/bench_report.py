@@ -58,6 +58,9 @@ def dress_panel(panel, title):
 
 def save(figure, name):
     """Writes a figure as SVG and PNG; the same data give the same SVG."""
+    import matplotlib  # here, as scripts that draw nothing do without
+
+    matplotlib.rcParams["svg.hashsalt"] = name  # names of parts are random without
     CHARTS.mkdir(parents=True, exist_ok=True)
     figure.savefig(CHARTS / f"{name}.svg", bbox_inches="tight", metadata={"Date": None})
     figure.savefig(CHARTS / f"{name}.png", bbox_inches="tight", dpi=140)

@@ -9,7 +9,6 @@
 """
 
 import collections
-import json
 import sys
 
 import matplotlib
@@ -19,7 +18,6 @@ import matplotlib.pyplot as plt
 
 import bench_report
 
-KEPT = bench_report.CHARTS / "far_field.json"
 STYLE = {
     "lattice, boundary values": ("o", "#0072B2"),
     "points, convolution": ("v", "#E69F00"),
@@ -66,11 +64,8 @@ def draw_against_error(panel, runs):
     panel.set_xlabel("error / potential of the absolute strengths")
 
 
-def main(raw=KEPT):
-    with open(raw, encoding="utf-8") as file:
-        data = json.load(file)
-    bench_report.CHARTS.mkdir(parents=True, exist_ok=True)
-    KEPT.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+def main(raw=None):
+    data = bench_report.keep("far_field", raw)
     figure, panels = plt.subplots(1, 3, figsize=(14.0, 4.8), sharey=True)
     draw_against_size(panels[0], data["runs"], "box")
     draw_against_size(panels[1], data["runs"], "ball")

@@ -9,7 +9,6 @@
 """
 
 import collections
-import json
 import sys
 
 import matplotlib
@@ -19,7 +18,6 @@ import matplotlib.pyplot as plt
 
 import bench_report
 
-KEPT = bench_report.CHARTS / "work_precision_poisson.json"
 STYLE = {
     "lattice, boundary values": ("o", "#0072B2"),
     "lattice, convolution": ("s", "#56B4E9"),
@@ -39,18 +37,12 @@ def draw_panel(panel, runs, dimension):
             panel.loglog([run["cpu_seconds"] for run in line], [run["error"] for run in line], marker=marker,
                          color=colour, markersize=5, linewidth=1.2, label=f"{method}: {line[-1]['pairs']:.1f} pairs")
     finest = max(run["cells"] for run in runs if run["dimension"] == dimension)
-    panel.set_title(f"{dimension}D, up to {finest} cells along an axis", fontsize=10)
-    panel.set_xlabel("time of one thread, s")
-    panel.grid(True, which="major", color="#e0e0e0", linewidth=0.6)
-    panel.spines[["top", "right"]].set_visible(False)
+    bench_report.dress_panel(panel, f"{dimension}D, up to {finest} cells along an axis")
     panel.legend(title="at the finest", frameon=False, fontsize=8, title_fontsize=8)
 
 
-def main(raw=KEPT):
-    with open(raw, encoding="utf-8") as file:
-        data = json.load(file)
-    bench_report.CHARTS.mkdir(parents=True, exist_ok=True)
-    KEPT.write_text(json.dumps(data, indent=1) + "\n", encoding="utf-8")
+def main(raw=None):
+    data = bench_report.keep("work_precision_poisson", raw)
     figure, panels = plt.subplots(1, 2, figsize=(10.0, 4.5), sharey=True)
     for panel, dimension in zip(panels, (2, 3)):
         draw_panel(panel, data["runs"], dimension)

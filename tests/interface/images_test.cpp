@@ -95,6 +95,40 @@ BOOST_AUTO_TEST_CASE(a_curved_wall_is_not_consistent) {
   BOOST_TEST(std::abs(fine.total) > 1e-8);
 }
 
+// From outside a disk to its inside, twice as wrong as the closest points: measured up to 1.9e-6. No number of threads
+// changes a bit.
+BOOST_AUTO_TEST_CASE(either_side_and_any_threads) {
+  const auto lattice = Lattice<2>::bounded_box(Box<2>::cube(), 48);
+  const Vec<2> centre{0.51, 0.49};
+  const LevelSet<ClosestPoint, 2> level_set(lattice, Ball<2>(centre, 0.25));
+  Particles<2> particles(300);
+  const auto volume = particles.add<double>("volume", 1.0);
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const auto turn = static_cast<double>(p);
+    particles.positions().set(p, centre + (0.251 + 0.0003 * turn) * Vec<2>{std::cos(turn), std::sin(turn)});
+  }
+  const auto& constant = particles;
+  const auto mirrored = [&](int threads) {
+    Images<2> images(0.08, Side::outside);
+    images.update(level_set.band(), lattice.domain(), constant.positions(), constant[volume], OpenMP{threads});
+    return images;
+  };
+  const auto one = mirrored(1);
+  BOOST_REQUIRE(one.images() > 200U);
+  for (std::size_t i = particles.size(); i < one.size(); ++i) {
+    const Vec<2> from = one.positions()[one.origin(i)] - centre;
+    BOOST_TEST(norm(one.positions()[i] - centre - (0.5 / norm(from) - 1.0) * from) < 4e-6);
+  }
+  for (const int threads : {2, 3}) {
+    const auto several = mirrored(threads);
+    BOOST_REQUIRE(several.size() == one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) BOOST_TEST((several.positions()[i] == one.positions()[i]));
+  }
+  Images<2> inside(0.08);
+  BOOST_CHECK_THROW(inside.update(level_set.band(), lattice.domain(), constant.positions(), constant[volume]),
+                    PositionError);
+}
+
 BOOST_AUTO_TEST_CASE(images_are_reflections) {
   const auto lattice = Lattice<2>::bounded_box(Box<2>::cube(), 48);
   const Vec<2> centre{0.5, 0.5};
@@ -105,7 +139,9 @@ BOOST_AUTO_TEST_CASE(images_are_reflections) {
   particles.positions().set(1, {0.7, 0.5});
   particles.positions().set(2, {0.5 + 0.12, 0.5 + 0.16});
   const auto& constant = particles;
-  Images<2> images(0.08);
+  Images<2> images(0.051), shorter(0.049);  // both particles near the wall are 0.05 from it
+  shorter.update(level_set.band(), lattice.domain(), constant.positions(), constant[volume]);
+  BOOST_TEST(shorter.images() == 0U);
   images.update(level_set.band(), lattice.domain(), constant.positions(), constant[volume]);
   BOOST_REQUIRE(images.size() == 5U);
   BOOST_TEST((images.origin(3) == 1U && images.origin(4) == 2U));

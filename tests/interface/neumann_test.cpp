@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 #include <random>
+#include <support/count_allocations.hpp>
 #include <vector>
 
 #include "neumann_scenes.hpp"
@@ -233,6 +234,29 @@ BOOST_AUTO_TEST_CASE(bad_input_is_refused_and_changes_nothing) {
   Neumann<2> hasty(band, {.shift = 1.0, .tolerance = 1e-14, .most_iterations = 1});
   BOOST_CHECK_THROW(hasty.solve(f, still, u), ConvergenceError);
   BOOST_TEST(std::ranges::count(u.values(), 7.0) == static_cast<std::ptrdiff_t>(u.size()));
+}
+
+// But for the residuals of the report; vectors are those of the first solve and the first step.
+BOOST_AUTO_TEST_CASE(solutions_take_no_memory) {
+  const auto lattice = square(32);
+  const auto band = band_of(lattice, scenes::Oval<2>{});
+  using Problem = Neumann<2, FaceCentroid, double, Serial>;
+  Problem steady(band, {.mean = MeanPart::subtract}, Serial{}), unsteady(band, {.shift = 20.0}, Serial{});
+  const auto f = sample(lattice, [](const Vec<2>& x) { return std::sin(5.0 * x[0]) + x[1]; });
+  Field<double, 2> u(lattice), out(lattice);
+  for (int k = 0; k < 2; ++k) {
+    std::size_t before = support::allocations;
+    const std::size_t bytes = support::allocated_bytes;
+    steady.solve(f, still, u);
+    if (k > 0) BOOST_TEST(support::allocations - before == 1U);
+    before = support::allocations;
+    unsteady.step(u, f, still, 1.0, 0.1, 0.5);
+    if (k > 0) BOOST_TEST(support::allocations - before == 1U);
+    if (k > 0) BOOST_TEST(support::allocated_bytes - bytes < 4000U);
+    before = support::allocations;
+    unsteady.negative_laplacian(u, still, out);
+    if (k > 0) BOOST_TEST(support::allocations - before == 0U);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(threads_do_not_change_a_bit) {

@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <limits>
+#include <support/count_allocations.hpp>
 #include <tuple>
 
 #include <cambium/interface.hpp>
@@ -180,6 +181,20 @@ BOOST_AUTO_TEST_CASE(the_same_with_any_solver_and_any_threads) {
     Field<double, 2> again(scene.lattice);
     outside.solve(solver, scene.f, again);
     BOOST_TEST(std::ranges::equal(again.values(), scene.p.values()));
+  }
+}
+
+// But for the report, and what Eigen's loop takes by malloc.
+BOOST_AUTO_TEST_CASE(solutions_take_no_fields) {
+  Scene<2> scene(48);
+  RightHandSideGmres<2> outside(scene.lattice);
+  BoxPoisson<2> box(scene.lattice, values<2>());
+  for (const int k : {0, 1}) {
+    outside.attach(scene.level_set.band());
+    const std::size_t before = support::allocated_bytes;
+    outside.solve(box, scene.f, scene.p);
+    // The residuals, and less than the values of the nodes beside the interface.
+    if (k > 0) BOOST_TEST(support::allocated_bytes - before < 4000U + outside.nodes().size() * sizeof(double));
   }
 }
 

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: The Cambium authors
 // SPDX-License-Identifier: BSD-3-Clause
 #define BOOST_TEST_MODULE allocations
-#include <atomic>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <cstdlib>
-#include <new>
+#include <support/count_allocations.hpp>
 #include <tuple>
 #include <type_traits>
 
@@ -14,29 +12,6 @@
 #include <cambium/levelset/advection/lagrangian.hpp>
 
 #include "levelset/advection_scenes.hpp"
-
-namespace {
-
-std::atomic<std::size_t> allocations{0};
-
-}  // namespace
-
-// Not inlined: g++ 12 warns of new and delete that do not match where it sees through one of them alone.
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-  ++allocations;
-  if (void* memory = std::malloc(bytes)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  ++allocations;
-  const auto to = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(to, (bytes + to - 1) / to * to)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -55,9 +30,9 @@ LevelSet<ClosestPoint, D> ball() {
 template <class F>
 std::size_t taken_by(int count, F&& f) {
   for (int n = 0; n < count; ++n) f(n);
-  const std::size_t before = allocations;
+  const std::size_t before = support::allocations;
   for (int n = 0; n < count; ++n) f(n);
-  return allocations - before;
+  return support::allocations - before;
 }
 
 }  // namespace

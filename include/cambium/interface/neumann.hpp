@@ -55,7 +55,11 @@ class Neumann {
         execution_(execution),
         domain_(band, params.side, require_shift(params.shift), execution),
         fluxes_(domain_.faces, domain_.cells),
-        cycle_(execution) {
+        cycle_(execution),
+        krylov_(execution),
+        sum_(parts()),
+        gross_(parts()),
+        excess_(parts()) {
     cycle_.take(domain_.cells);
   }
 
@@ -232,45 +236,46 @@ class Neumann {
     using Operator = std::function<void(const double*, double*)>;
     const Operator product = [this](const double* in, double* out) { apply(in, out); };
     const Operator cycle = [this](const double* in, double* out) { precondition(in, out); };
-    SolveReport report = solve_krylov<typename Flux::Krylov, double>(product, cycle, std::span<const double>(right_),
-                                                                     std::span<double>(solution_),
-                                                                     {params_.tolerance, params_.most_iterations});
+    SolveReport report = solve_krylov<typename Flux::Krylov, double>(
+        product, cycle, std::span<const double>(right_), std::span<double>(solution_),
+        {params_.tolerance, params_.most_iterations}, krylov_);
     fix_totals();
     for (std::size_t k = 0; k < unknowns(); ++k) u[domain_.unknowns[k].node] = static_cast<T>(solution_[k]);
     return report;
   }
   /// Checks that what enters the parts of the domain leaves them, and spreads the rest.
   void balance() {
-    std::vector<double> sum(parts(), 0.0), gross(parts(), 0.0);
+    std::ranges::fill(sum_, 0.0);
+    std::ranges::fill(gross_, 0.0);
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      sum[domain_.part[k]] += right_[k];
-      gross[domain_.part[k]] += std::abs(right_[k]);
+      sum_[domain_.part[k]] += right_[k];
+      gross_[domain_.part[k]] += std::abs(right_[k]);
     }
     for (std::size_t p = 0; p < parts(); ++p) {
-      if (params_.mean == MeanPart::subtract || !(std::abs(sum[p]) > params_.mean_tolerance * gross[p])) continue;
+      if (params_.mean == MeanPart::subtract || !(std::abs(sum_[p]) > params_.mean_tolerance * gross_[p])) continue;
       const double unit = cell() / (lattice_.spacing() * lattice_.spacing());
       throw ValueError(detail::message("the sources in part ", p,
-                                       " of the domain and the flux through its interface sum to ", sum[p] * unit, " (",
-                                       gross[p] * unit,
+                                       " of the domain and the flux through its interface sum to ", sum_[p] * unit,
+                                       " (", gross_[p] * unit,
                                        " without signs), but for -Lap u = f with "
                                        "du/dn given they must balance: change them, or ask for MeanPart::subtract"));
     }
     for (std::size_t k = 0; k < unknowns(); ++k) {
       right_[k] -=
-          sum[domain_.part[k]] / domain_.volume_of_part[domain_.part[k]] * domain_.share[domain_.unknowns[k].at];
+          sum_[domain_.part[k]] / domain_.volume_of_part[domain_.part[k]] * domain_.share[domain_.unknowns[k].at];
     }
   }
   /// Moves the solution in each part by a constant, so that the total is what the balances say and not what the
   /// tolerance leaves; where they do not fix it, so that it is zero.
   void fix_totals() {
     const double square = params_.shift * lattice_.spacing() * lattice_.spacing();
-    std::vector<CompensatedSum> excess(parts());
+    std::ranges::fill(excess_, CompensatedSum{});
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      excess[domain_.part[k]] += domain_.share[domain_.unknowns[k].at] * solution_[k];
-      if (square > 0.0) excess[domain_.part[k]] += -right_[k] / square;
+      excess_[domain_.part[k]] += domain_.share[domain_.unknowns[k].at] * solution_[k];
+      if (square > 0.0) excess_[domain_.part[k]] += -right_[k] / square;
     }
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      solution_[k] -= excess[domain_.part[k]].value() / domain_.volume_of_part[domain_.part[k]];
+      solution_[k] -= excess_[domain_.part[k]].value() / domain_.volume_of_part[domain_.part[k]];
     }
   }
 
@@ -280,7 +285,10 @@ class Neumann {
   detail::CellDomain<D> domain_;
   typename Flux::template Method<D> fluxes_;
   detail::AggregationCycle<D, E> cycle_;
+  KrylovSpace<typename Flux::Krylov, double, E> krylov_;
   std::vector<double> right_, solution_, outflow_;
+  std::vector<double> sum_, gross_;  ///< of the right-hand side, for each part of the domain
+  std::vector<CompensatedSum> excess_;
 };
 
 }  // namespace cambium

@@ -45,7 +45,7 @@ class RightHandSideGmres {
 
   explicit RightHandSideGmres(const Lattice<D>& lattice) : RightHandSideGmres(lattice, Params{}) {}
   RightHandSideGmres(const Lattice<D>& lattice, const Params& params)
-      : lattice_(lattice), params_(params), sources_(lattice), image_(lattice) {}
+      : lattice_(lattice), params_(params), sources_(lattice), image_(lattice), free_(lattice) {}
 
   const Lattice<D>& lattice() const { return lattice_; }
   /// Numbers of the nodes outside that have a neighbour inside.
@@ -85,10 +85,10 @@ class RightHandSideGmres {
   SolveReport solve(Solver& poisson, const Field<T, D>& f, Field<T, D>& p) {
     require(f);
     require(p);
-    Field<T, D> free = p;
-    poisson.solve(f, free);
-    std::vector<T> right(nodes_.size());
-    for (std::size_t k = 0; k < nodes_.size(); ++k) right[k] = -free[nodes_[k]];
+    std::ranges::copy(p.values(), free_.values().begin());
+    poisson.solve(f, free_);
+    right_.resize(nodes_.size());
+    for (std::size_t k = 0; k < nodes_.size(); ++k) right_[k] = -free_[nodes_[k]];
     // At walls, sources alone have the value zero.
     for (T& value : image_.values()) value = T(0);
     using Operator = std::function<void(const T*, T*)>;
@@ -98,10 +98,10 @@ class RightHandSideGmres {
       for (std::size_t k = 0; k < nodes_.size(); ++k) out[k] = image_[nodes_[k]];
     };
     const Operator same = [&](const T* in, T* out) { std::copy_n(in, nodes_.size(), out); };
-    SolveReport report = solve_krylov<Krylov, T>(apply, same, std::span<const T>(right), std::span<T>(strength_),
-                                                 {params_.tolerance, params_.most_iterations});
-    apply(strength_.data(), right.data());
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] = free[i] + image_[i];
+    SolveReport report = solve_krylov<Krylov, T>(apply, same, std::span<const T>(right_), std::span<T>(strength_),
+                                                 {params_.tolerance, params_.most_iterations}, krylov_);
+    apply(strength_.data(), right_.data());
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] = free_[i] + image_[i];
     return report;
   }
 
@@ -127,9 +127,11 @@ class RightHandSideGmres {
   Lattice<D> lattice_;
   Params params_;
   std::vector<std::size_t> nodes_;
-  std::vector<T> strength_;
+  std::vector<T> strength_, right_;
   Field<T, D> sources_;
   Field<T, D> image_;
+  Field<T, D> free_;  ///< the solution without sources
+  KrylovSpace<Krylov, T> krylov_;
 };
 
 }  // namespace cambium
