@@ -59,8 +59,8 @@ std::vector<Scene> make_scenes() {
       {.shape = "pair:1.3,3.2", .parameters = growing(0.1), .at = {0.25, 0.5, 0.75, 1.0}});
   add("extinction", "necrosis wins",
       {.shape = "ellipsoid:0,2",
-       .parameters = {.necrotic_decay = 3.0, .necrotic_limit = 0.75, .tension = 0.1},
-       .at = {0.25, 0.5, 1.0}});
+       .parameters = {.apoptosis = 1.1, .necrotic_decay = 3.0, .necrotic_limit = 0.75, .tension = 0.1},
+       .at = {0.1, 0.25, 4.0}});
   return list;
 }
 
