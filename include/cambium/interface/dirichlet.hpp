@@ -122,7 +122,7 @@ class Dirichlet {
   /// changed
   template <class K, class B>
   void normal_derivative(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const Field<T, D>& c,
-                         Field<B, D, Sparse>& derivative) {
+                         Field<B, D, Sparse>& derivative, Slopes slopes = Slopes::cubic) {
     require_lattice(c);
     read_solution(c);
     take_blocks(derivative, band);
@@ -130,7 +130,7 @@ class Dirichlet {
     const double* const x = levels_.finest().x.data();
     continuation_.find(domain, levels_.finest().x.data(), data_, gradient_.reach);
     try {
-      gradient_.differentiate(band, points, domain, x, derivative, execution_);
+      gradient_.differentiate(band, points, domain, x, slopes, derivative, execution_);
     } catch (...) {
       forget_solution();
       throw;

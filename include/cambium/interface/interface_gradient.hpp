@@ -12,7 +12,15 @@
 #include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/geometry/surface_geometry.hpp>
 
-namespace cambium::detail {
+namespace cambium {
+
+/// How slopes at an interface are taken from values beside it.
+enum class Slopes {
+  cubic,       ///< of cubic polynomials: the more accurate ones for smooth values
+  differences  ///< of centred differences, second order: those of noise from node to node keep the right sign
+};
+
+namespace detail {
 
 /// Derivatives along the normal, at closest points, of values that were continued beyond the interface: of the product
 /// of cubic polynomials through the 4^D nodes around a point; where one of them has no value, or is beyond a wall, of
@@ -27,7 +35,7 @@ class InterfaceGradient {
   /// \throws InterfaceError if a node that a difference needs has no value
   template <class K, class B, Execution E>
   void differentiate(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const CutDomain<D>& domain,
-                     const double* x, Field<B, D, Sparse>& derivative, const E& execution) {
+                     const double* x, Slopes slopes, Field<B, D, Sparse>& derivative, const E& execution) {
     workers_.resize(static_cast<std::size_t>(execution.count()));
     auto& patches = std::get<std::vector<Patch<B, D>>>(patches_);
     patches.resize(workers_.size());
@@ -41,7 +49,7 @@ class InterfaceGradient {
       for (std::size_t i = 0; i < NarrowBand<B, D>::volume; ++i) {
         values[i] = B(0);
         if (!points.found(b, i)) continue;
-        const Vec<D> gradient = gradient_at(place_of(points, band, b, i), domain, workers_[worker]);
+        const Vec<D> gradient = gradient_at(place_of(points, band, b, i), domain, workers_[worker], slopes);
         const Vec<D, B> n = normals(i);
         double along = 0.0;
         for (int d = 0; d < D; ++d) along += gradient[d] * static_cast<double>(n[d]);
@@ -158,7 +166,8 @@ class InterfaceGradient {
   }
 
   /// Times the spacing.
-  static Vec<D> gradient_at(const Vec<D>& place, const CutDomain<D>& domain, const Box& box) {
+  static Vec<D> gradient_at(const Vec<D>& place, const CutDomain<D>& domain, const Box& box, Slopes slopes) {
+    if (slopes == Slopes::differences) return of_differences(place, domain, box);
     const Vec<D> gradient = of_cubics(place, domain.grid, box);
     for (int d = 0; d < D; ++d) {
       if (std::isnan(gradient[d])) return of_differences(place, domain, box);
@@ -245,4 +254,5 @@ class InterfaceGradient {
   std::tuple<std::vector<Patch<float, D>>, std::vector<Patch<double, D>>> patches_;
 };
 
-}  // namespace cambium::detail
+}  // namespace detail
+}  // namespace cambium

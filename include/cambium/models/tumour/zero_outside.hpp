@@ -76,13 +76,13 @@ class InsidePressure {
     }
     for_each(execution_, p.size(), [&](std::size_t i) { p[i] = grown_[i] + dropped_[i]; });
   }
-  /// What a drop of the pressure alone adds to the speed: Lap p = 0. Its slope is that of Dirichlet, of second order:
+  /// What a drop of the pressure alone adds to the speed: Lap p = 0. Its slope is that of differences, of second order:
   /// where the drop varies from node to node, as noise does, the cubic polynomials across the interface would have
   /// slopes of the wrong sign, and the noise grow.
   void respond(const Values& drop, Values& speed) {
     solver_->solve(
         zero_, [&](const Vec<D>& x) { return value_at(drop, *band_, x); }, dropped_);
-    solver_->normal_derivative(*band_, *points_, dropped_, slope_);
+    solver_->normal_derivative(*band_, *points_, dropped_, slope_, Slopes::differences);
     for (std::size_t b = 0; b < speed.blocks(); ++b) {
       for (std::size_t i = 0; i < Band::volume; ++i) {
         if (!std::isnan(speed.block(b)[i])) speed.block(b)[i] = -slope_.block(b)[i];
