@@ -14,10 +14,6 @@ namespace {
 using cambium::Index;
 using cambium::Vec;
 
-Vec<3> cross(const Vec<3>& a, const Vec<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 /// Rows of the matrix that takes a displacement to voxels: the dual basis.
 std::array<Vec<3>, 3> dual(const std::array<Vec<3>, 3>& axis) {
   const double volume = dot(axis[0], cross(axis[1], axis[2]));
