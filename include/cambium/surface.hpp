@@ -5,6 +5,7 @@
 /// \dir surface  Functions on a moving interface: diffusion, transport, integrals.
 #include <cambium/surface/cell_stencil.hpp>
 #include <cambium/surface/group_values.hpp>
+#include <cambium/surface/particle_cells.hpp>
 #include <cambium/surface/place_batch.hpp>
 #include <cambium/surface/point_reader.hpp>
 #include <cambium/surface/projected_laplacian.hpp>
@@ -14,5 +15,6 @@
 #include <cambium/surface/surface_band.hpp>
 #include <cambium/surface/surface_integral.hpp>
 #include <cambium/surface/surface_laplacian.hpp>
+#include <cambium/surface/surface_particles.hpp>
 #include <cambium/surface/surface_stencil.hpp>
 #include <cambium/surface/surface_transport.hpp>
