@@ -6,6 +6,7 @@
 #include <cambium/surface/cell_stencil.hpp>
 #include <cambium/surface/flux_laplacian.hpp>
 #include <cambium/surface/group_values.hpp>
+#include <cambium/surface/particle_cells.hpp>
 #include <cambium/surface/place_batch.hpp>
 #include <cambium/surface/point_reader.hpp>
 #include <cambium/surface/projected_laplacian.hpp>
@@ -13,6 +14,7 @@
 #include <cambium/surface/sheet_plan.hpp>
 #include <cambium/surface/sheet_points.hpp>
 #include <cambium/surface/surface_band.hpp>
+#include <cambium/surface/surface_exchange.hpp>
 #include <cambium/surface/surface_integral.hpp>
 #include <cambium/surface/surface_laplacian.hpp>
 #include <cambium/surface/surface_particles.hpp>
