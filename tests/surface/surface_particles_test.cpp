@@ -10,6 +10,7 @@
 #include <cambium/levelset/shapes/ellipsoid.hpp>
 
 #include "particle_modes.hpp"
+#include "support/count_allocations.hpp"
 #include "support/order.hpp"
 
 using namespace modes;
@@ -69,6 +70,14 @@ BOOST_AUTO_TEST_CASE(threads_give_the_same_bits) {
     if (threads == 1) first = strengths;
     BOOST_TEST((strengths == first));
   }
+}
+
+BOOST_AUTO_TEST_CASE(exchange_allocates_nothing) {
+  SurfaceParticles<2> particles(sphere<2, double>(32));
+  AlignedVector<double> strengths(particles.size(), 1.0), rate(particles.size());
+  const std::size_t before = support::allocations;
+  particles.exchange(strengths, rate, Serial{});
+  BOOST_TEST(support::allocations == before);
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {

@@ -26,7 +26,7 @@ namespace cambium {
 /// point. Volumes fall smoothly to zero at the edge of the layer, which needs no condition and no extension there: the
 /// exchange is the gradient of the surface's Dirichlet energy as an integral over the layer (Chu & Tsai 2018), so that
 /// it is symmetric, never negative, and keeps functions constant along normals. Second order.
-/// Nothing is allocated after fit().
+/// exchange() allocates nothing.
 template <int D = 3, class T = double>
 class SurfaceParticles {
  public:
