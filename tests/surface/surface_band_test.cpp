@@ -11,6 +11,7 @@
 #include <cambium/time/rk4.hpp>
 
 #include "sphere_modes.hpp"
+#include "support/count_allocations.hpp"
 #include "support/order.hpp"
 
 using namespace cambium;
@@ -146,6 +147,17 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   BOOST_CHECK_THROW((SurfaceBand<SurfaceLaplacian<4>>(near)), InterfaceError);
   // A ball of radius 1.8 h: behind its centre there is no closest point on the same side.
   BOOST_TEST(SurfaceBand<>(LevelSet<>(lattice, Ball<3>({0.0, 0.0, 0.0}, 0.15))).folded() > 0U);
+}
+
+BOOST_AUTO_TEST_CASE(evaluations_allocate_nothing_but_the_first) {
+  SurfaceBand<SurfaceLaplacian<2>, 2> band(modes::unit_sphere<2>(32));
+  AlignedVector<double> c(band.size(), 1.0), rate(band.size());
+  band.laplacian(c, rate, Serial{});
+  band.extend(c, rate, Serial{});
+  const std::size_t before = support::allocations;
+  band.laplacian(c, rate, Serial{});
+  band.extend(c, rate, Serial{});
+  BOOST_TEST(support::allocations == before);
 }
 
 }  // namespace

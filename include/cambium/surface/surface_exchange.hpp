@@ -24,9 +24,10 @@ namespace cambium {
 /// Particles sit on the nodes of the lattice up to Params::half_width from the interface. Each has a volume v_p, its
 /// share of the area of the interface, and per species a strength C_p = v_p c_p, c_p the concentration at its closest
 /// point. Volumes fall smoothly to zero at the edge of the layer, which needs no condition and no extension there: the
-/// exchange is the gradient of the surface's Dirichlet energy as an integral over the layer (Chu & Tsai 2018), so that
-/// it is symmetric, never negative, and keeps functions constant along normals. Second order.
-/// Nothing is allocated after fit().
+/// exchange is the gradient of the surface's Dirichlet energy as an integral over the layer, so that it is symmetric,
+/// never negative, and keeps functions constant along normals. Its error falls with order 1.6 to 1.8 down to a floor
+/// that the width of the layer in spacings sets (1e-3 of the amplitude for 3, 1e-4 for 6). exchange() allocates
+/// nothing.
 template <int D = 3, class T = double>
 class SurfaceExchange {
  public:
