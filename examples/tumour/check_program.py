@@ -67,15 +67,34 @@ def check_ends():
     report = grow("end", *small, "--at", "0.02,0.04")
     assert [frame["t"] for frame in report["frames"]] == [0, 0.02, 0.04], report
     assert abs(float(rows(folder / "end")[-1]["imbalance"])) < 4e-3  # 2.4e-3 here, of the lattice's second order
+    for outside, area in ("free-space", 35.1560), ("zero", 36.1939):  # of the true interfaces
+        report = grow(outside, "--n", 64, "--no-page", "--outside", outside, "--at", 1)
+        assert abs(report["frames"][-1]["volume"] / area - 1) < 1e-3, report  # 3.2e-4 and 6.0e-4 here
     report = grow("box", *small, "--box", 6, "--shape", "ellipsoid:0,1.9", "--at", 5)
     assert "reached the box" in report["ended"] and report["frames"][-1]["t"] == report["t"] > 0, report
     report = grow("extinct", *small, "--box", 6, "--shape", "ellipsoid:0,1", "--A", 3, "--gamma", 0.1, "--at", 5)
     assert "died out" in report["ended"] and len(report["frames"]) == 1, report
 
 
+def check_image():
+    """The ball of an image of anisotropic, turned voxels has the volume of the ball that it shows."""
+    image = folder / "ball.nrrd"
+    run("--dim", 3, "--shape", "ellipsoid:0,1.5", "--box", 4, "--make-image", image)
+    whole = image.read_bytes()
+    for name, content, word in [("cut", whole[:5000], "bytes"), ("moon", whole.replace(b"uint8", b"block"), "type"),
+                                ("huge", whole.replace(b"sizes: ", b"sizes: 9"), "bytes")]:
+        (folder / f"{name}.nrrd").write_bytes(content)
+        assert word in run("--dim", 3, "--shape", folder / f"{name}.nrrd", "--dry-run", good=False)
+    assert "it has: 0 1" in run("--dim", 3, "--shape", f"{image},2,1", "--dry-run", good=False)
+    out = folder / "image"
+    run("--dim", 3, "--n", 24, "--box", 6, "--shape", f"{image},1,1", "--at", 1e-4, "--no-page", "--out", out)
+    volume = float(rows(out)[0]["volume"])
+    assert abs(volume / (4 / 3 * 3.14159265 * 1.5**3) - 1) < 0.01, volume
+
+
 def check_signal():
     out = folder / "signal"
-    child = subprocess.Popen([program, *small, "--at", "50", "--out", str(out)], stdout=subprocess.DEVNULL)
+    child = subprocess.Popen([program, *small, "--G", "0", "--at", "5000", "--out", str(out)], stdout=subprocess.DEVNULL)
     for _ in range(200):
         time.sleep(0.05)
         if (out / "report.json").exists():
@@ -91,4 +110,5 @@ shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 check_options()
 check_ends()
+check_image()
 check_signal()

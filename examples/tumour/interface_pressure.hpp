@@ -11,7 +11,8 @@
 namespace tumour {
 
 /// Pressure on the inner side of the interface, at the vertices of its surface. From every node inside that is a corner
-/// of the cell around a vertex, along the normal: p + phi V, since dp/dn = -V; the mean over the corners, O(h).
+/// of the cell around a vertex, along the normal: p + phi V - phi^2 / 2 (kappa V - G (1 - A)), since dp/dn = -V and
+/// Lap p = -G (1 - A) at the interface; the mean over the corners. Derivatives along the interface are left out: O(h).
 template <class T>
 std::vector<double> pressure_on(const T& tumour, const cambium::Surface<T::dimension>& surface) {
   constexpr int D = T::dimension;
@@ -19,7 +20,10 @@ std::vector<double> pressure_on(const T& tumour, const cambium::Surface<T::dimen
   const auto& lattice = band.lattice();
   std::vector<double> result;
   result.reserve(surface.vertices.size());
-  for (const auto& x : surface.vertices) {
+  const auto& parameters = tumour.parameters();
+  const double source = parameters.growth * (1.0 - parameters.apoptosis);
+  for (std::size_t v = 0; v < surface.vertices.size(); ++v) {
+    const auto& x = surface.vertices[v];
     double weights = 0.0, sum = 0.0;
     for (int corner = 0; corner < 1 << D; ++corner) {
       cambium::Index<D> node;
@@ -37,7 +41,8 @@ std::vector<double> pressure_on(const T& tumour, const cambium::Surface<T::dimen
       const double speed = tumour.speed()(node);
       if (!(phi < 0.0) || !std::isfinite(speed)) continue;
       weights += weight;
-      sum += weight * (tumour.pressure()(node) + phi * speed);
+      sum +=
+          weight * (tumour.pressure()(node) + phi * speed - 0.5 * phi * phi * (surface.curvatures[v] * speed - source));
     }
     result.push_back(weights > 0.0 ? sum / weights : std::nan(""));
   }

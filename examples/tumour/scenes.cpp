@@ -54,7 +54,7 @@ std::vector<Scene> make_scenes() {
   add("surface-tension-5", "with a tension of 5 for the mean of the curvatures, 2.5 for their sum",
       space(ellipsoid, growing(2.5), {0.5, 1.0, 1.5}));
   add("zero-outside", "two tumours and no pressure outside: interfaces join",
-      {.shape = "pair:1.3,3.2", .parameters = growing(0.1), .outside = "zero", .at = {0.25, 0.5, 0.75, 1.0}});
+      {.shape = "pair:1.3,3.2", .parameters = growing(0.1), .outside = "zero", .at = {0.1, 0.15, 0.2, 0.25}});
   add("free-space-pair", "the same two with the pressure of free space: they keep apart",
       {.shape = "pair:1.3,3.2", .parameters = growing(0.1), .at = {0.25, 0.5, 0.75, 1.0}});
   add("extinction", "necrosis wins",

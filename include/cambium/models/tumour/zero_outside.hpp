@@ -65,9 +65,7 @@ class InsidePressure {
   void solve(Field<double, D>& f, const Values& drop, double, Field<double, D>& p, Values& speed) {
     solver_->solve(
         f, [](const Vec<D>&) { return 0.0; }, grown_);
-    set_outside(grown_, std::numeric_limits<double>::quiet_NaN());
-    solver_->continue_beyond(grown_, 3);
-    differentiate(grown_, speed);
+    find_speed(grown_, Slopes::cubic, speed);
     set_outside(grown_, 0.0);
     part_ = speed;
     respond(drop, part_);
@@ -82,12 +80,7 @@ class InsidePressure {
   void respond(const Values& drop, Values& speed) {
     solver_->solve(
         zero_, [&](const Vec<D>& x) { return value_at(drop, *band_, x); }, dropped_);
-    solver_->normal_derivative(*band_, *points_, dropped_, slope_, Slopes::differences);
-    for (std::size_t b = 0; b < speed.blocks(); ++b) {
-      for (std::size_t i = 0; i < Band::volume; ++i) {
-        if (!std::isnan(speed.block(b)[i])) speed.block(b)[i] = -slope_.block(b)[i];
-      }
-    }
+    find_speed(dropped_, Slopes::differences, speed);
     set_outside(dropped_, 0.0);
   }
   std::size_t unresolved() const { return 0; }
@@ -98,64 +91,20 @@ class InsidePressure {
       if (!inside) p[i] = value;
     });
   }
-  /// speed := -dp/dn, p continued beyond the interface, from cubic polynomials through four nodes along each axis.
-  void differentiate(const Field<double, D>& p, Values& speed) {
-    patches_.resize(static_cast<std::size_t>(execution_.count()));
-    const double h = band_->spacing();
-    for_each_piece_by_worker(execution_, band_->blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-      Patch<double, D>& patch = patches_[worker];
-      for_each_closest_point(
-          *points_, *band_, b, *band_, patch,
-          [&](std::size_t i, const Vec<D>& u) {
-            const Vec<D> n =
-                surface_geometry(Interpolant<K, double, D>::jet(patch.data(), patch.stride(), u), 1.0).normal;
-            Vec<D> place;
-            for (int d = 0; d < D; ++d) {
-              place[d] = static_cast<double>(band_->values().node(b, i)[d]) + points_->offset(b, i)[d];
-            }
-            const double slope = dot(cubic_gradient(p, place), n) / h;
-            if (!std::isfinite(slope)) fail_at(place);
-            speed.block(b)[i] = -slope;
-          },
-          [](std::size_t) {});
-    });
-  }
-  /// In spacings. \param place  in spacings from the first node of the lattice
-  static Vec<D> cubic_gradient(const Field<double, D>& p, const Vec<D>& place) {
-    std::array<std::array<double, 4>, D> weight{}, slope{};
-    Index<D> first;
-    for (int d = 0; d < D; ++d) {
-      first[d] = static_cast<std::ptrdiff_t>(std::floor(place[d])) - 1;
-      const double t = place[d] - static_cast<double>(first[d] + 1);
-      weight[d] = {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
-                   (t + 1) * t * (t - 1) / 6};
-      slope[d] = {-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2, -(3 * t * t - 2 * t - 2) / 2,
-                  (3 * t * t - 1) / 6};
-    }
-    Vec<D> gradient;
-    for (std::size_t k = 0; k < (D == 2 ? 16 : 64); ++k) {
-      Index<D> node = first;
-      Vec<D> product = Vec<D>::constant(1.0);
-      for (int d = 0; d < D; ++d) {
-        const std::size_t j = (k >> (2 * d)) % 4;
-        node[d] = p.lattice().wrap(d, node[d] + static_cast<std::ptrdiff_t>(j));
-        for (int e = 0; e < D; ++e) product[e] *= e == d ? slope[d][j] : weight[d][j];
+  /// speed := -dp/dn of the last solution, where it is not NaN.
+  void find_speed(const Field<double, D>& p, Slopes slopes, Values& speed) {
+    solver_->normal_derivative(*band_, *points_, p, slope_, slopes);
+    for (std::size_t b = 0; b < speed.blocks(); ++b) {
+      for (std::size_t i = 0; i < Band::volume; ++i) {
+        if (!std::isnan(speed.block(b)[i])) speed.block(b)[i] = -slope_.block(b)[i];
       }
-      gradient += product * p(node);
     }
-    return gradient;
-  }
-  [[noreturn]] void fail_at(const Vec<D>& place) const {
-    throw InterfaceError(message("the pressure cannot be continued across the interface near ",
-                                 band_->lattice().box().lo + place * band_->spacing(),
-                                 ": the tumour is thinner than a few spacings there; refine the lattice"));
   }
 
   OpenMP execution_;
   const Band* band_ = nullptr;
   const ClosestPoints<K, double, D>* points_ = nullptr;
   std::optional<Dirichlet<D>> solver_;
-  std::vector<Patch<double, D>> patches_;
   Field<double, D> zero_, grown_, dropped_;
   Values part_, slope_;
 };
