@@ -22,4 +22,5 @@
 #include <cambium/interface/jump_mayo.hpp>
 #include <cambium/interface/jump_patch.hpp>
 #include <cambium/interface/jump_rule.hpp>
+#include <cambium/interface/node_sides.hpp>
 #include <cambium/interface/side.hpp>
