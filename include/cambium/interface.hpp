@@ -8,6 +8,7 @@
 #include <cambium/interface/aggregation_cycle.hpp>
 #include <cambium/interface/cell_domain.hpp>
 #include <cambium/interface/cell_geometry.hpp>
+#include <cambium/interface/checked_fields.hpp>
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
 #include <cambium/interface/cut_rows.hpp>
