@@ -8,9 +8,7 @@
 // tree is given its sources anew each time; solvers keep kernels and plans, whose making is written down as well.
 //
 //     far_field --json raw.json     then scripts/draw_far_field.py raw.json
-#include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -22,6 +20,7 @@
 #include <cambium/poisson.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 #include "support/median.hpp"
 
 using namespace cambium;
@@ -162,16 +161,12 @@ int main(int argc, char** argv) {
   std::vector<std::ptrdiff_t> resolutions{16, 32, 64};
   std::vector<double> tolerances{1e-1, 1e-3, 1e-6, 1e-9};
   int rounds = 3;
-  bool quick = false;
-  std::string json;
-  CLI::App app("Potentials of sources in a box at its faces: a tree against solvers on the lattice");
-  app.add_option("--resolutions", resolutions, "cells along an axis");
-  app.add_option("--tolerances", tolerances, "of the tree");
-  app.add_option("--rounds", rounds, "how often each is timed");
-  app.add_option("--json", json, "write the results to this file");
-  app.add_flag("--quick", quick, "coarse lattices, to see that it runs");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) {
+  bench::Command command("Potentials of sources in a box at its faces: a tree against solvers on the lattice");
+  command.app.add_option("--resolutions", resolutions, "cells along an axis");
+  command.app.add_option("--tolerances", tolerances, "of the tree");
+  command.app.add_option("--rounds", rounds, "how often each is timed");
+  CLI11_PARSE(command.app, argc, argv);
+  if (command.quick) {
     resolutions = {12};
     tolerances = {1e-3};
     rounds = 1;
@@ -189,6 +184,6 @@ int main(int argc, char** argv) {
       scene.run(rounds, table);
     }
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"rounds", rounds}, {"runs", table}}.dump(1) << '\n';
+  command.write({{"rounds", rounds}, {"runs", table}});
   return 0;
 }

@@ -9,11 +9,9 @@
 // closest points are there), and alone for what is not the Poisson solver; methods take turns, medians count.
 //
 //     work_precision_interface --json raw.json     then scripts/draw_work_precision_interface.py raw.json
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,6 +23,7 @@
 #include <cambium/poisson.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 #include "support/median.hpp"
 
 using namespace cambium;
@@ -181,16 +180,12 @@ int main(int argc, char** argv) {
   std::vector<std::ptrdiff_t> flat{32, 64, 128, 256, 512};
   std::vector<std::ptrdiff_t> deep{32, 64, 128};
   int rounds = 5;
-  bool quick = false;
-  std::string json;
-  CLI::App app("Error against time of pressures that jump across an interface");
-  app.add_option("--resolutions", flat, "cells along an axis in 2D");
-  app.add_option("--resolutions-3d", deep, "cells along an axis in 3D");
-  app.add_option("--rounds", rounds, "how often each is timed");
-  app.add_option("--json", json, "write the results to this file");
-  app.add_flag("--quick", quick, "coarse lattices, to see that it runs");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) {
+  bench::Command command("Error against time of pressures that jump across an interface");
+  command.app.add_option("--resolutions", flat, "cells along an axis in 2D");
+  command.app.add_option("--resolutions-3d", deep, "cells along an axis in 3D");
+  command.app.add_option("--rounds", rounds, "how often each is timed");
+  CLI11_PARSE(command.app, argc, argv);
+  if (command.quick) {
     flat = {32};
     deep = {24};
     rounds = 1;
@@ -200,6 +195,6 @@ int main(int argc, char** argv) {
   if (BENCH_SMOKE == 0) {
     for (const auto cells : deep) bench::Contest<3>(cells).run(rounds, table);
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"rounds", rounds}, {"runs", table}}.dump(1) << '\n';
+  command.write({{"rounds", rounds}, {"runs", table}});
   return 0;
 }

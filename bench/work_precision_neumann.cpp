@@ -7,9 +7,7 @@
 // are processor times of one thread.
 //
 //     work_precision_neumann --json raw.json
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -23,6 +21,7 @@
 #include <cambium/particles/particles.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 
 using namespace cambium;
 
@@ -146,17 +145,13 @@ void enter(int dimension, std::ptrdiff_t cells, const char* method, const Outcom
 
 int main(int argc, char** argv) {
   std::vector<std::ptrdiff_t> flat{32, 64, 128, 256}, deep{24, 48, 96}, flat_images{48, 96, 192}, deep_images{48, 64};
-  bool quick = false;
-  std::string json;
-  CLI::App app("Error against time of diffusion in a closed geometry");
-  app.add_option("--resolutions", flat, "cells along an axis in 2D");
-  app.add_option("--resolutions-3d", deep, "cells along an axis in 3D");
-  app.add_option("--resolutions-images", flat_images, "cells along an axis in 2D for particles with images");
-  app.add_option("--resolutions-images-3d", deep_images, "cells along an axis in 3D for particles with images");
-  app.add_option("--json", json, "write the results to this file");
-  app.add_flag("--quick", quick, "coarse lattices, to see that it runs");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) {
+  bench::Command command("Error against time of diffusion in a closed geometry");
+  command.app.add_option("--resolutions", flat, "cells along an axis in 2D");
+  command.app.add_option("--resolutions-3d", deep, "cells along an axis in 3D");
+  command.app.add_option("--resolutions-images", flat_images, "cells along an axis in 2D for particles with images");
+  command.app.add_option("--resolutions-images-3d", deep_images, "cells along an axis in 3D for particles with images");
+  CLI11_PARSE(command.app, argc, argv);
+  if (command.quick) {
     flat = {32};
     flat_images = {48};
     deep = deep_images = {};
@@ -170,6 +165,6 @@ int main(int argc, char** argv) {
     for (const auto n : deep) bench::enter(3, n, "FaceCentre", bench::by_neumann<FaceCentre, 3>(n), table);
     for (const auto n : deep_images) bench::enter(3, n, "PSE with images", bench::by_images<3>(n), table);
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", table}}.dump(1) << '\n';
+  command.write({{"runs", table}});
   return 0;
 }

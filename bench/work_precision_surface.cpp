@@ -6,11 +6,9 @@
 // and an ellipsoid that grows by a known map. Times are processor times of one thread.
 //
 //     work_precision_surface --json raw.json     then scripts/draw_work_precision_surface.py raw.json
-#include <CLI/CLI.hpp>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -21,6 +19,7 @@
 #include "../tests/surface/particle_carrier.hpp"
 #include "../tests/surface/rare_extension.hpp"
 #include "support/clock.hpp"
+#include "support/command.hpp"
 
 using namespace motion;
 
@@ -187,27 +186,20 @@ nlohmann::json on_particles(std::ptrdiff_t cells) {
 
 int main(int argc, char** argv) {
   std::vector<std::ptrdiff_t> cells{40, 48, 56, 64};
-  std::string json;
-  bool quick = false;
-  CLI::App app("Error against time of functions on interfaces");
-  app.add_option("--cells", cells, "cells along an axis, one run for each");
-  app.add_option("--json", json, "write the figures to this file");
-  app.add_flag("--quick", quick, "one small lattice, second order: a test that the program runs");
-  CLI11_PARSE(app, argc, argv);
-  if (quick) cells = {40};
+  bench::Command command("Error against time of functions on interfaces");
+  command.app.add_option("--cells", cells, "cells along an axis, one run for each");
+  CLI11_PARSE(command.app, argc, argv);
+  if (command.quick) cells = {40};
   nlohmann::json runs = nlohmann::json::array(), on_particles = runs;
   for (const auto n : cells) {
     on_particles.push_back(bench::on_particles(n));
-    bench::run<2>(n, quick, runs);
+    bench::run<2>(n, command.quick, runs);
 #if !BENCH_SMOKE
-    bench::run<4>(n, quick, runs);
+    bench::run<4>(n, command.quick, runs);
 #endif
   }
-  const nlohmann::json rare = bench::rare_extensions(quick);
-  if (!json.empty())
-    std::ofstream(json) << nlohmann::json{{"runs", runs}, {"particles", on_particles}, {"rare_extensions", rare}}.dump(
-                               2)
-                        << '\n';
+  const nlohmann::json rare = bench::rare_extensions(command.quick);
+  command.write({{"runs", runs}, {"particles", on_particles}, {"rare_extensions", rare}});
   for (const auto& row : runs) {
     if (!(row["largest"].get<double>() < 0.1)) return 1;
   }

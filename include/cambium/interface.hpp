@@ -8,6 +8,7 @@
 #include <cambium/interface/aggregation_cycle.hpp>
 #include <cambium/interface/cell_domain.hpp>
 #include <cambium/interface/cell_geometry.hpp>
+#include <cambium/interface/checked_fields.hpp>
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/cut_domain.hpp>
 #include <cambium/interface/cut_rows.hpp>
@@ -22,4 +23,5 @@
 #include <cambium/interface/jump_mayo.hpp>
 #include <cambium/interface/jump_patch.hpp>
 #include <cambium/interface/jump_rule.hpp>
+#include <cambium/interface/node_sides.hpp>
 #include <cambium/interface/side.hpp>

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <cambium/interface/node_sides.hpp>
 #include <cambium/interface/side.hpp>
 #include <cambium/kernels/lambda.hpp>
 #include <cambium/levelset/edge_root.hpp>
@@ -107,33 +108,10 @@ struct CutDomain {
 /// Marks the nodes of one side of a level set.
 template <class T, int D, Execution E>
 void find_kinds(const NarrowBand<T, D>& band, Side side, CutDomain<D>& domain, const E& execution) {
-  constexpr std::ptrdiff_t extent = NarrowBand<T, D>::extent;
-  const LevelGrid<D>& grid = domain.grid;
-  domain.kind.assign(grid.size(), beyond);
-  const Index<D>& blocks = band.values().block_grid();
-  for_each_piece(execution, static_cast<std::size_t>(product(blocks)), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      Index<D> block, last;
-      auto rest = static_cast<std::ptrdiff_t>(k);
-      for (int d = 0; d < D; ++d) {
-        block[d] = rest % blocks[d];
-        rest /= blocks[d];
-        last[d] = std::min((block[d] + 1) * extent, grid.nodes[d]) - 1;
-      }
-      const std::ptrdiff_t b = band.values().find(block);
-      const bool far_inside = band.far_value(block) < T(0);
-      for_each_row<D>(block * extent, last, [&](const Index<D>& row) {
-        std::uint8_t* const to = domain.kind.data() + grid.at(row);
-        const std::ptrdiff_t count = last[0] - row[0] + 1;
-        const T* const phi =
-            b < 0 ? nullptr
-                  : band.values().block(static_cast<std::size_t>(b)).data() + Field<T, D, Sparse>::offset(row);
-        for (std::ptrdiff_t i = 0; i < count; ++i) {
-          const bool inside = phi ? phi[i] < T(0) : far_inside;
-          to[i] = inside == (side == Side::inside) ? plain : beyond;
-        }
-      });
-    }
+  domain.kind.assign(domain.grid.size(), beyond);
+  for_each_side_row(band, execution, [&](const Index<D>& row, std::ptrdiff_t count, const auto& inside) {
+    std::uint8_t* const to = domain.kind.data() + domain.grid.at(row);
+    for (std::ptrdiff_t i = 0; i < count; ++i) to[i] = inside(i) == (side == Side::inside) ? plain : beyond;
   });
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <cambium/core/field.hpp>
+#include <cambium/interface/checked_fields.hpp>
 #include <cambium/interface/continuation.hpp>
 #include <cambium/interface/dirichlet_levels.hpp>
 #include <cambium/interface/interface_gradient.hpp>
@@ -88,8 +89,8 @@ class Dirichlet {
   ///         residuals on the way; c is unchanged then
   template <class G>
   SolveReport solve(const Field<T, D>& f, G&& g, Field<T, D>& c) {
-    require_lattice(f);
-    require_lattice(c);
+    detail::require_lattice(f, lattice_, name);
+    detail::require_lattice(c, lattice_, name);
     right_.assign(unknowns(), 0.0);
     guess_.resize(unknowns());
     read_problem(f, c);
@@ -108,7 +109,7 @@ class Dirichlet {
   /// Continues c smoothly to the other side: up to `reach` nodes along the lines of the lattice that cross the
   /// interface, by cubic polynomials through the data of the last solve(). \return number of nodes that got a value
   std::size_t continue_beyond(Field<T, D>& c, std::ptrdiff_t reach = 3) {
-    require_lattice(c);
+    detail::require_lattice(c, lattice_, name);
     read_solution(c);
     const auto& values = continuation_.find(levels_.domain(), levels_.finest().x.data(), data_, reach);
     for (const auto& value : values) c(value.node) = static_cast<T>(value.sum / value.weight);
@@ -123,7 +124,7 @@ class Dirichlet {
   template <class K, class B>
   void normal_derivative(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const Field<T, D>& c,
                          Field<B, D, Sparse>& derivative, Slopes slopes = Slopes::cubic) {
-    require_lattice(c);
+    detail::require_lattice(c, lattice_, name);
     read_solution(c);
     take_blocks(derivative, band);
     auto& domain = levels_.domain();
@@ -139,17 +140,8 @@ class Dirichlet {
   }
 
  private:
-  void require_lattice(const Field<T, D>& field) const {
-    if (field.lattice() == lattice_) return;
-    throw SizeError("a field is not on the lattice of this Dirichlet problem: make one for each lattice");
-  }
-  double finite(T value, std::size_t i, const char* what) const {
-    if (!std::isfinite(value)) {
-      throw ValueError(detail::message(what, " is ", value, " at ", lattice_.position(lattice_.node(i)),
-                                       ": every value must be finite"));
-    }
-    return static_cast<double>(value);
-  }
+  static constexpr const char* name = "Dirichlet problem";
+
   /// Calls f(entry, number of the unknown, number of the node) for all unknowns.
   template <class F>
   void each_unknown_node(F&& f) const {
@@ -177,8 +169,8 @@ class Dirichlet {
   /// right_ := h^2 f and the data at walls; guess_ := c
   void read_problem(const Field<T, D>& f, const Field<T, D>& c) {
     each_unknown_node([&](std::size_t, std::size_t number, std::size_t i) {
-      guess_[number] = finite(c[i], i, "the first guess");
-      right_[number] = finite(f[i], i, "the right-hand side");
+      guess_[number] = detail::finite_value(c, i, "the first guess");
+      right_[number] = detail::finite_value(f, i, "the right-hand side");
     });
     // The residual of zero, with x zero but at the walls, is the right-hand side with the data at walls in it.
     const double square = lattice_.spacing() * lattice_.spacing();
@@ -224,7 +216,7 @@ class Dirichlet {
 
   /// x of the finest level at walls := c, if all is finite.
   void set_walls(const Field<T, D>& c) {
-    each_given_node([&](std::size_t, std::size_t i) { finite(c[i], i, "the datum at a wall"); });
+    each_given_node([&](std::size_t, std::size_t i) { detail::finite_value(c, i, "the datum at a wall"); });
     each_given_node([&](std::size_t at, std::size_t i) { levels_.finest().x[at] = static_cast<double>(c[i]); });
   }
   /// x of the finest level := values, or zero.
@@ -254,8 +246,9 @@ class Dirichlet {
     if (data_.size() != levels_.domain().nodes.size() * 2 * D) {
       throw ValueError("there are no data on the interface yet: call solve() after the interface has moved");
     }
-    each_unknown_node(
-        [&](std::size_t at, std::size_t, std::size_t i) { levels_.finest().x[at] = finite(c[i], i, "the solution"); });
+    each_unknown_node([&](std::size_t at, std::size_t, std::size_t i) {
+      levels_.finest().x[at] = detail::finite_value(c, i, "the solution");
+    });
     set_walls(c);
   }
   /// Only unknowns differ from zero in what the equations are applied to.

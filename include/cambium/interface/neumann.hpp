@@ -9,6 +9,7 @@
 #include <cambium/core/field.hpp>
 #include <cambium/interface/aggregation_cycle.hpp>
 #include <cambium/interface/cell_domain.hpp>
+#include <cambium/interface/checked_fields.hpp>
 #include <cambium/interface/face_flux.hpp>
 #include <cambium/parallel/compensated_sum.hpp>
 #include <cambium/poisson/mean_part.hpp>
@@ -79,9 +80,9 @@ class Neumann {
   }
   /// Integral of a field over the domain, as the balances count it. \throws SizeError; ValueError
   double total(const Field<T, D>& u) const {
-    require_lattice(u);
+    detail::require_lattice(u, lattice_, name);
     CompensatedSum sum;
-    for (const auto& k : domain_.unknowns) sum += domain_.share[k.at] * finite(u[k.node], k.node, "the field");
+    for (const auto& k : domain_.unknowns) sum += domain_.share[k.at] * detail::finite_value(u, k.node, "the field");
     return sum.value() * cell();
   }
   /// Integral of q over the interface.
@@ -100,13 +101,13 @@ class Neumann {
   ///         do not balance (see Params::mean); ConvergenceError. u is unchanged then
   template <class Q>
   SolveReport solve(const Field<T, D>& f, Q&& q, Field<T, D>& u) {
-    require_lattice(f);
-    require_lattice(u);
+    detail::require_lattice(f, lattice_, name);
+    detail::require_lattice(u, lattice_, name);
     right_.resize(unknowns());
     const double square = lattice_.spacing() * lattice_.spacing();
     for (std::size_t k = 0; k < unknowns(); ++k) {
       right_[k] = square * domain_.share[domain_.unknowns[k].at] *
-                  finite(f[domain_.unknowns[k].node], domain_.unknowns[k].node, "the right-hand side");
+                  detail::finite_value(f, domain_.unknowns[k].node, "the right-hand side");
     }
     add_interface(q);
     return solve_balances(u);
@@ -115,8 +116,8 @@ class Neumann {
   /// \throws SizeError; ValueError
   template <class Q>
   void negative_laplacian(const Field<T, D>& u, Q&& q, Field<T, D>& out) {
-    require_lattice(u);
-    require_lattice(out);
+    detail::require_lattice(u, lattice_, name);
+    detail::require_lattice(out, lattice_, name);
     find_outflow(u);
     right_.assign(unknowns(), 0.0);
     add_interface(q);
@@ -131,8 +132,8 @@ class Neumann {
   /// with s = 1 / (theta diffusivity dt). \throws ValueError if s is another or theta out of (0, 1]; as solve()
   template <class Q>
   SolveReport step(Field<T, D>& u, const Field<T, D>& source, Q&& q, double diffusivity, double dt, double theta) {
-    require_lattice(u);
-    require_lattice(source);
+    detail::require_lattice(u, lattice_, name);
+    detail::require_lattice(source, lattice_, name);
     if (!(theta > 0.0 && theta <= 1.0) || !(std::abs(params_.shift * theta * diffusivity * dt - 1.0) < 1e-9)) {
       throw ValueError(detail::message("a step with theta ", theta, ", diffusivity ", diffusivity, " and dt ", dt,
                                        " needs theta in (0, 1] and the shift 1 / (theta diffusivity dt), which is not ",
@@ -144,7 +145,7 @@ class Neumann {
     find_outflow(u);
     for (std::size_t k = 0; k < unknowns(); ++k) {
       const auto [at, node] = domain_.unknowns[k];
-      const double added = square * domain_.share[at] * finite(source[node], node, "the source");
+      const double added = square * domain_.share[at] * detail::finite_value(source, node, "the source");
       right_[k] = (right_[k] + added) / (theta * diffusivity) - (1.0 - theta) / theta * outflow_[k] +
                   domain_.cells.mass[at] * static_cast<double>(u[node]);
     }
@@ -152,23 +153,14 @@ class Neumann {
   }
 
  private:
+  static constexpr const char* name = "Neumann problem";
+
   double cell() const { return std::pow(lattice_.spacing(), D); }
   double outward() const { return params_.side == Side::inside ? 1.0 : -1.0; }
 
   static double require_shift(double shift) {
     if (shift >= 0.0 && std::isfinite(shift)) return shift;
     throw ValueError(detail::message("the shift s of s - Lap is ", shift, ": it must be finite and >= 0"));
-  }
-  void require_lattice(const Field<T, D>& field) const {
-    if (field.lattice() == lattice_) return;
-    throw SizeError("a field is not on the lattice of this Neumann problem: make one for each lattice");
-  }
-  double finite(T value, std::size_t i, const char* what) const {
-    if (!std::isfinite(value)) {
-      throw ValueError(detail::message(what, " is ", value, " at ", lattice_.position(lattice_.node(i)),
-                                       ": every value must be finite"));
-    }
-    return static_cast<double>(value);
   }
   template <class Q>
   double datum(Q&& q, const detail::WallPiece<D>& piece) const {
@@ -213,7 +205,7 @@ class Neumann {
     solution_.resize(unknowns());
     outflow_.resize(unknowns());
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      solution_[k] = finite(u[domain_.unknowns[k].node], domain_.unknowns[k].node, "the field");
+      solution_[k] = detail::finite_value(u, domain_.unknowns[k].node, "the field");
     }
     apply(solution_.data(), outflow_.data());
     for (std::size_t k = 0; k < unknowns(); ++k) {
@@ -231,7 +223,7 @@ class Neumann {
     if (params_.shift == 0.0) balance();
     solution_.resize(unknowns());
     for (std::size_t k = 0; k < unknowns(); ++k) {
-      solution_[k] = finite(u[domain_.unknowns[k].node], domain_.unknowns[k].node, "the first guess");
+      solution_[k] = detail::finite_value(u, domain_.unknowns[k].node, "the first guess");
     }
     using Operator = std::function<void(const double*, double*)>;
     const Operator product = [this](const double* in, double* out) { apply(in, out); };

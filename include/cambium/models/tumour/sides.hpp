@@ -2,40 +2,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <algorithm>
-
-#include <cambium/levelset/narrow_band.hpp>
-#include <cambium/multigrid/level.hpp>
+#include <cambium/interface/node_sides.hpp>
 
 namespace cambium::detail {
 
 /// Calls f(number, inside) for every node of the lattice of a band.
 template <class T, int D, Execution E, class F>
 void for_each_side(const NarrowBand<T, D>& band, const E& execution, F&& f) {
-  constexpr std::ptrdiff_t extent = NarrowBand<T, D>::extent;
-  const Lattice<D>& lattice = band.lattice();
-  const Index<D>& blocks = band.values().block_grid();
-  for_each_piece(execution, static_cast<std::size_t>(product(blocks)), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      Index<D> block, last;
-      auto rest = static_cast<std::ptrdiff_t>(k);
-      for (int d = 0; d < D; ++d) {
-        block[d] = rest % blocks[d];
-        rest /= blocks[d];
-        last[d] = std::min((block[d] + 1) * extent, lattice.nodes()[d]) - 1;
-      }
-      const std::ptrdiff_t b = band.values().find(block);
-      const bool far = band.far_value(block) < T(0);
-      for_each_row<D>(block * extent, last, [&](const Index<D>& row) {
-        const std::size_t first = lattice.number(row);
-        const T* const phi =
-            b < 0 ? nullptr
-                  : band.values().block(static_cast<std::size_t>(b)).data() + Field<T, D, Sparse>::offset(row);
-        for (std::ptrdiff_t i = 0; i <= last[0] - row[0]; ++i) {
-          f(first + static_cast<std::size_t>(i), phi ? phi[i] < T(0) : far);
-        }
-      });
-    }
+  for_each_side_row(band, execution, [&](const Index<D>& row, std::ptrdiff_t count, const auto& inside) {
+    const std::size_t first = band.lattice().number(row);
+    for (std::ptrdiff_t i = 0; i < count; ++i) f(first + static_cast<std::size_t>(i), inside(i));
   });
 }
 
