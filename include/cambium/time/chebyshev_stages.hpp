@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -30,7 +32,13 @@ class ChebyshevStages {
     if (s == static_cast<int>(stage_.size())) return;
     const double w0 = 1.0 + damping / (static_cast<double>(s) * s);
     // T, T', T'' of degrees 0 .. s at w0.
-    std::vector<double> value(static_cast<std::size_t>(s) + 1), first = value, second = value;
+    auto& [value, first, second] = polynomial_;
+    const auto count = static_cast<std::size_t>(s) + 1;
+    if (value.capacity() < count) {
+      for (auto* numbers : {&value, &first, &second}) numbers->reserve(2 * count);
+      stage_.reserve(2 * count);
+    }
+    for (auto* numbers : {&value, &first, &second}) numbers->assign(count, 0.0);
     value[0] = 1.0;
     value[1] = w0;
     first[1] = 1.0;
@@ -60,6 +68,7 @@ class ChebyshevStages {
   static constexpr double interval = 2.0 / 3.0 * (1.0 - 2.0 / 15.0 * damping);
 
   std::vector<Stage> stage_;
+  std::array<std::vector<double>, 3> polynomial_;  ///< T, T', T'': kept, so that nothing is allocated for fewer stages
   double end_ = 0.0;
 };
 
