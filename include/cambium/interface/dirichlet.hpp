@@ -123,7 +123,7 @@ class Dirichlet {
   /// changed
   template <class K, class B>
   void normal_derivative(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const Field<T, D>& c,
-                         Field<B, D, Sparse>& derivative, Slopes slopes = Slopes::cubic) {
+                         Field<B, D, Sparse>& derivative, SlopeStencil slopes = SlopeStencil::cubic) {
     detail::require_lattice(c, lattice_, name);
     read_solution(c);
     take_blocks(derivative, band);

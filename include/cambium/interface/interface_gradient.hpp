@@ -15,7 +15,7 @@
 namespace cambium {
 
 /// How slopes at an interface are taken from values beside it.
-enum class Slopes {
+enum class SlopeStencil {
   cubic,       ///< of cubic polynomials: the more accurate ones for smooth values
   differences  ///< of centred differences, second order: those of noise from node to node keep the right sign
 };
@@ -35,7 +35,7 @@ class InterfaceGradient {
   /// \throws InterfaceError if a node that a difference needs has no value
   template <class K, class B, Execution E>
   void differentiate(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const CutDomain<D>& domain,
-                     const double* x, Slopes slopes, Field<B, D, Sparse>& derivative, const E& execution) {
+                     const double* x, SlopeStencil slopes, Field<B, D, Sparse>& derivative, const E& execution) {
     workers_.resize(static_cast<std::size_t>(execution.count()));
     auto& patches = std::get<std::vector<Patch<B, D>>>(patches_);
     patches.resize(workers_.size());
@@ -166,8 +166,8 @@ class InterfaceGradient {
   }
 
   /// Times the spacing.
-  static Vec<D> gradient_at(const Vec<D>& place, const CutDomain<D>& domain, const Box& box, Slopes slopes) {
-    if (slopes == Slopes::differences) return of_differences(place, domain, box);
+  static Vec<D> gradient_at(const Vec<D>& place, const CutDomain<D>& domain, const Box& box, SlopeStencil slopes) {
+    if (slopes == SlopeStencil::differences) return of_differences(place, domain, box);
     const Vec<D> gradient = of_cubics(place, domain.grid, box);
     for (int d = 0; d < D; ++d) {
       if (std::isnan(gradient[d])) return of_differences(place, domain, box);

@@ -69,8 +69,9 @@ class SurfaceExchange {
     }
     for (std::size_t p = 0; p < cells.node.size(); ++p) first[p + 1] += first[p];
     std::vector<std::size_t> next(first.begin(), first.end() - 1), of_particle(first.back());
-    for (std::size_t e = 0; e < of_particle.size(); ++e)
+    for (std::size_t e = 0; e < of_particle.size(); ++e) {
       of_particle[next[cells.corner[e / corners][e % corners]]++] = e;
+    }
     AlignedVector<T> given(first.back());
     cells_.emplace(std::move(cells));
     first_.swap(first);

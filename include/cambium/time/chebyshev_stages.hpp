@@ -32,7 +32,7 @@ class ChebyshevStages {
     if (s == static_cast<int>(stage_.size())) return;
     const double w0 = 1.0 + damping / (static_cast<double>(s) * s);
     // T, T', T'' of degrees 0 .. s at w0.
-    auto& [value, first, second] = polynomial_;
+    std::vector<double>&value = polynomial_[0], &first = polynomial_[1], &second = polynomial_[2];
     const auto count = static_cast<std::size_t>(s) + 1;
     if (value.capacity() < count) {
       for (auto* numbers : {&value, &first, &second}) numbers->reserve(2 * count);

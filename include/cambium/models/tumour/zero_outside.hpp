@@ -65,7 +65,7 @@ class InsidePressure {
   void solve(Field<double, D>& f, const Values& drop, double, Field<double, D>& p, Values& speed) {
     solver_->solve(
         f, [](const Vec<D>&) { return 0.0; }, grown_);
-    find_speed(grown_, Slopes::cubic, speed);
+    find_speed(grown_, SlopeStencil::cubic, speed);
     set_outside(grown_, 0.0);
     part_ = speed;
     respond(drop, part_);
@@ -80,7 +80,7 @@ class InsidePressure {
   void respond(const Values& drop, Values& speed) {
     solver_->solve(
         zero_, [&](const Vec<D>& x) { return value_at(drop, *band_, x); }, dropped_);
-    find_speed(dropped_, Slopes::differences, speed);
+    find_speed(dropped_, SlopeStencil::differences, speed);
     set_outside(dropped_, 0.0);
   }
   std::size_t unresolved() const { return 0; }
@@ -92,7 +92,7 @@ class InsidePressure {
     });
   }
   /// speed := -dp/dn of the last solution, where it is not NaN.
-  void find_speed(const Field<double, D>& p, Slopes slopes, Values& speed) {
+  void find_speed(const Field<double, D>& p, SlopeStencil slopes, Values& speed) {
     solver_->normal_derivative(*band_, *points_, p, slope_, slopes);
     for (std::size_t b = 0; b < speed.blocks(); ++b) {
       for (std::size_t i = 0; i < Band::volume; ++i) {
