@@ -4,7 +4,7 @@
 // Patterns on spheres against what is known of them: growth rates of spherical harmonics against the dispersion
 // relation, which pattern noise grows into, and what a steady pattern costs by different steppers.
 //
-//   surface_pattern --rates --selection --cost --json FILE
+//   surface_pattern --rates --selection --spectra --cost --json FILE
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -167,6 +167,44 @@ json selection(const std::vector<std::ptrdiff_t>& cells, int seeds, double end, 
   return result;
 }
 
+/// What spots and stripes of Koch and Meinhardt on a sphere of radius 0.3 consist of, from noise about the rest state.
+json spectra(std::ptrdiff_t cells, double end) {
+  json result = json::array();
+  const auto run = [&](const char* name, const KochMeinhardt& kinetics, int first, int last) {
+    SurfacePattern<KochMeinhardt> pattern(sphere(0.3, cells), kinetics, koch_meinhardt_unit_diffusivities, {},
+                                          {.steps = {.absolute = 1e-4, .relative = 1e-3}});
+    const bench::HarmonicNoise noise(1, 12);
+    const Vec<2> rest = kinetics.fixed_points()[0];
+    pattern.sample([&](const Vec<3>& x) { return rest + Vec<2>{1e-2 * noise(x - centre), 0.0}; });
+    const std::size_t evaluations = pattern.advance(end).evaluations;
+    SurfaceIntegral<SurfaceLaplacian<2>> integral(pattern.surface(), pattern.band());
+    const auto c = pattern.concentration(0);
+    const auto power = bench::spectrum(bench::amplitudes(pattern.band(), integral.weights(), c, centre, 16));
+    double in_band = 0.0;
+    for (int l = first; l <= last; ++l) in_band += power[static_cast<std::size_t>(l)];
+    const auto [low, high] = std::ranges::minmax(c);
+    const double middle = 0.5 * (low + high), area = integral(c, [](double) { return 1.0; });
+    const double above = integral(c, [&](double x) { return x > middle ? 1.0 : 0.0; }) / area;
+    const std::size_t pieces = bench::spots(pattern.band(), integral.weights(), c, centre).size();
+    std::printf(
+        "%s, %td cells, t = %g: %.1f%% of the variance in l = %d to %d, %zu pieces above the middle, %.0f%% of "
+        "the area, c1 in [%.3f, %.3f], %zu evaluations\n",
+        name, cells, end, 100.0 * in_band, first, last, pieces, 100.0 * above, low, high, evaluations);
+    std::fflush(stdout);
+    result.push_back({{"name", name},
+                      {"cells", cells},
+                      {"time", end},
+                      {"in_band", in_band},
+                      {"spectrum", power},
+                      {"pieces", pieces},
+                      {"above", above},
+                      {"range", {low, high}}});
+  };
+  run("spots", koch_meinhardt_spots, 3, 12);
+  run("stripes", koch_meinhardt_stripes, 4, 8);
+  return result;
+}
+
 /// The source's printed parameters, on the unit sphere.
 json printed(std::ptrdiff_t cells, int seeds) {
   json result = json::array();
@@ -249,9 +287,15 @@ json cost(std::ptrdiff_t cells, double end, bool quick) {
                 run.name.c_str(), run.tolerance, error, run.evaluations, run.steps, run.processor, run.wall,
                 run.bound_by.dump().c_str());
     std::fflush(stdout);
-    return json{
-        {"name", run.name},   {"tolerance", run.tolerance}, {"error", error},   {"evaluations", run.evaluations},
-        {"steps", run.steps}, {"processor", run.processor}, {"wall", run.wall}, {"bound_by", run.bound_by}};
+    return json{{"name", run.name},
+                {"cells", cells},
+                {"tolerance", run.tolerance},
+                {"error", error},
+                {"evaluations", run.evaluations},
+                {"steps", run.steps},
+                {"processor", run.processor},
+                {"wall", run.wall},
+                {"bound_by", run.bound_by}};
   };
   json result = json::array();
   const Run reference = adaptive_run<StabilisedSteps>("RKC2, reference", cells, quick ? 1e-4 : 1e-7, end);
@@ -277,7 +321,8 @@ json cost(std::ptrdiff_t cells, double end, bool quick) {
 
 int main(int argc, char** argv) {
   CLI::App app("Patterns on spheres against theory, and their cost");
-  bool with_rates = false, with_selection = false, with_printed = false, with_cost = false, quick = BENCH_SMOKE;
+  bool with_rates = false, with_selection = false, with_printed = false, with_cost = false, with_spectra = false;
+  bool quick = BENCH_SMOKE;
   std::vector<std::ptrdiff_t> cells{64};
   int seeds = 10;
   double end = 2500.0, amplitude = 1e-3;
@@ -285,6 +330,8 @@ int main(int argc, char** argv) {
   app.add_flag("--rates", with_rates, "growth rates of spherical harmonics");
   app.add_flag("--selection", with_selection, "which pattern noise grows into");
   app.add_flag("--printed", with_printed, "the same for the printed parameters on the unit sphere");
+  app.add_flag("--spectra", with_spectra,
+               "what spots and stripes of Koch and Meinhardt consist of, at t = 8 times --end");
   app.add_flag("--cost", with_cost, "cost of a steady pattern by different steppers");
   app.add_flag("--quick", quick, "little of everything");
   app.add_option("--cells", cells, "cells along an edge");
@@ -298,6 +345,7 @@ int main(int argc, char** argv) {
   if (with_selection || quick)
     result["selection"] =
         selection(quick ? std::vector<std::ptrdiff_t>{32} : cells, quick ? 1 : seeds, quick ? 100.0 : end, amplitude);
+  if (with_spectra) result["spectra"] = spectra(cells[0], 8.0 * end);
   if (with_printed) result["printed"] = printed(cells[0], seeds);
   if (with_cost || quick) result["cost"] = cost(quick ? 32 : cells[0], quick ? 20.0 : end, quick);
   if (!file.empty()) std::ofstream(file) << result.dump(1) << '\n';
