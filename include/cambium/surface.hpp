@@ -6,6 +6,7 @@
 #include <cambium/surface/cell_stencil.hpp>
 #include <cambium/surface/flux_laplacian.hpp>
 #include <cambium/surface/group_values.hpp>
+#include <cambium/surface/level_geometry.hpp>
 #include <cambium/surface/particle_cells.hpp>
 #include <cambium/surface/place_batch.hpp>
 #include <cambium/surface/point_reader.hpp>

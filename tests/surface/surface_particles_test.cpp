@@ -81,6 +81,22 @@ BOOST_AUTO_TEST_CASE(threads_give_the_same_bits) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(fluxes_of_threads_have_the_same_bits_and_other_bands_are_refused) {
+  const modes::Sphere sphere = modes::unit_sphere<3>(24), other = modes::unit_sphere<3>(32);
+  const modes::Scalars c = sampled(sphere, [](const Vec<3>& x) { return x[0] + x[1] * x[2]; });
+  FluxLaplacian<> fluxes;
+  modes::Scalars one(sphere.lattice()), three(sphere.lattice());
+  BOOST_CHECK_THROW(fluxes(sphere.band(), c, one), SizeError);
+  fluxes.fit(sphere.band(), OpenMP{3});
+  fluxes(sphere.band(), c, one, OpenMP{1});
+  fluxes(sphere.band(), c, three, OpenMP{3});
+  for (std::size_t b = 0; b < one.blocks(); ++b) {
+    BOOST_TEST(std::equal(one.block(b).begin(), one.block(b).end(), three.block(b).begin()));
+  }
+  BOOST_CHECK_THROW(fluxes(other.band(), c, one), SizeError);
+  BOOST_CHECK_THROW(fluxes.fit(NarrowBand<double, 3>(sphere.lattice(), 2.0 * sphere.spacing())), BandError);
+}
+
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   BOOST_CHECK_THROW((SurfaceParticles<1, 2>({.substeps = 0})), ValueError);
   const Interface<2> circle = unit_sphere_in<2>(2.05, 32);

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <type_traits>
 #include <vector>
 
 #include <cambium/levelset/field_patch.hpp>
 #include <cambium/levelset/geometry/centred_differences.hpp>
+#include <cambium/surface/level_geometry.hpp>
 
 namespace cambium {
 
@@ -28,37 +27,25 @@ class FluxLaplacian {
   /// Takes the interface of a band: to be called when it has moved. \throws BandError if the band is too thin
   template <Execution E = OpenMP>
   void fit(const Band& band, const E& execution = {}) {
-    if (static_cast<double>(band.half_width()) < 3.0 * band.spacing()) {
-      throw BandError(detail::message("half width of the band is ",
-                                      static_cast<double>(band.half_width()) / band.spacing(),
-                                      " spacings, but fluxes along the interface need 3: choose a wider band"));
-    }
-    typename Geometry::template Method<T, D>(typename Geometry::Params{})(band, geometry_.emplace(band.lattice()),
-                                                                          execution);
+    geometry_.fit(band, 3.0, "the flux operator", execution);
   }
   /// to := the operator applied to `from`, both with the blocks of the band that was taken: rates of c; times the
   /// volume of a particle those of its strength. \throws SizeError unless `from` has these blocks; ValueError if `from`
   /// and `to` are one field
   template <class V, Execution E = OpenMP>
   void operator()(const Band& band, const Field<V, D, Sparse>& from, Field<V, D, Sparse>& to, const E& execution = {}) {
-    static_assert(std::is_same_v<ScalarOf<V>, T>, "cambium: the field must have the scalar type of the level set");
-    require_same_blocks(from, band, "the field to diffuse");
-    if (!geometry_ || !same_blocks(geometry_->normal, band)) {
-      throw SizeError("the flux operator was made for another band: call fit(band) when the interface has moved");
-    }
-    if (&from == &to) throw ValueError("the field to diffuse is also the result: give two fields");
-    take_blocks(to, band);
+    geometry_.prepare(band, from, to, "the flux operator");
     patches_.resize(std::max(patches_.size(), static_cast<std::size_t>(execution.count())));
     const T scale = static_cast<T>(1.0 / (band.spacing() * band.spacing()));
     for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t w, std::size_t b, std::size_t) {
       const Index<D> first = from.block_origin(b) - Index<D>::constant(1), edge = Index<D>::constant(Band::extent + 2);
       patches_[w].value.read(from, first, edge);
-      patches_[w].normal.read(geometry_->normal, first, edge);
+      patches_[w].normal.read(geometry_.get().normal, first, edge);
       const auto values = to.block(b);
       for (std::size_t i = 0; i < Band::volume; ++i) {
         for (int c = 0; c < Components<V>::count; ++c) {
           component(values[i], c) =
-              geometry_->defined(b, i) ? scale * rate(patches_[w], from.lattice(), from.node(b, i), i, c) : T(0);
+              geometry_.get().defined(b, i) ? scale * rate(patches_[w], from.lattice(), from.node(b, i), i, c) : T(0);
         }
       }
     });
@@ -107,7 +94,7 @@ class FluxLaplacian {
     return slope[d] - n[d] * dot(n, slope);
   }
 
-  std::optional<BandGeometry<T, D>> geometry_;
+  detail::LevelGeometry<Geometry, T, D> geometry_;
   std::vector<Patches> patches_;
 };
 

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
-#include <type_traits>
 #include <vector>
 
 #include <cambium/levelset/field_patch.hpp>
 #include <cambium/levelset/geometry/centred_differences.hpp>
+#include <cambium/surface/level_geometry.hpp>
 
 namespace cambium {
 
@@ -30,26 +29,13 @@ class ProjectedLaplacian {
   /// Takes the interface of a band: to be called when it has moved. \throws BandError if the band is too thin
   template <Execution E = OpenMP>
   void fit(const Band& band, const E& execution = {}) {
-    const double needed = 0.5 * Order * std::numbers::sqrt2 + 1.0;
-    if (static_cast<double>(band.half_width()) < needed * band.spacing()) {
-      throw BandError(detail::message(
-          "half width of the band is ", static_cast<double>(band.half_width()) / band.spacing(),
-          " spacings, but the projected operator of order ", Order, " needs ", needed, ": choose a wider band"));
-    }
-    typename Geometry::template Method<T, D>(typename Geometry::Params{})(band, geometry_.emplace(band.lattice()),
-                                                                          execution);
+    geometry_.fit(band, 0.5 * Order * std::numbers::sqrt2 + 1.0, "the projected operator", execution);
   }
   /// to := the operator applied to `from`, both with the blocks of the band that was taken.
   /// \throws SizeError unless `from` has these blocks; ValueError if `from` and `to` are one field
   template <class V, Execution E = OpenMP>
   void operator()(const Band& band, const Field<V, D, Sparse>& from, Field<V, D, Sparse>& to, const E& execution = {}) {
-    static_assert(std::is_same_v<ScalarOf<V>, T>, "cambium: the field must have the scalar type of the level set");
-    require_same_blocks(from, band, "the field to diffuse");
-    if (!geometry_ || !same_blocks(geometry_->normal, band)) {
-      throw SizeError("the projected operator was made for another band: call fit(band) when the interface has moved");
-    }
-    if (&from == &to) throw ValueError("the field to diffuse is also the result: give two fields");
-    take_blocks(to, band);
+    geometry_.prepare(band, from, to, "the projected operator");
     patches_.resize(std::max(patches_.size(), static_cast<std::size_t>(execution.count())));
     for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t w, std::size_t b, std::size_t) {
       Index<D> first = from.block_origin(b);
@@ -58,12 +44,12 @@ class ProjectedLaplacian {
       const auto values = to.block(b);
       for (std::size_t i = 0; i < Band::volume; ++i) {
         for (int c = 0; c < Components<V>::count; ++c) {
-          component(values[i], c) = geometry_->defined(b, i) ? rate(patches_[w], b, i, c, band.spacing()) : T(0);
+          component(values[i], c) = geometry_.get().defined(b, i) ? rate(patches_[w], b, i, c, band.spacing()) : T(0);
         }
       }
     });
   }
-  const BandGeometry<T, D>& geometry() const { return *geometry_; }
+  const BandGeometry<T, D>& geometry() const { return geometry_.get(); }
 
  private:
   static constexpr std::ptrdiff_t reach = Geometry::reach;
@@ -75,14 +61,14 @@ class ProjectedLaplacian {
       at += (reach + static_cast<std::ptrdiff_t>(rest % Band::extent)) * patch.stride()[d];
     }
     const Jet<T, D> jet = Geometry::jet(typename Geometry::Params{}, patch.data(c) + at, patch.stride());
-    const Vec<D, T>& n = geometry_->normal.block(b)[i];
+    const Vec<D, T>& n = geometry_.get().normal.block(b)[i];
     const T h = static_cast<T>(spacing);
-    T sum = -geometry_->mean.block(b)[i] * h * dot(n, jet.gradient);
+    T sum = -geometry_.get().mean.block(b)[i] * h * dot(n, jet.gradient);
     for (int d = 0; d < D; ++d) sum += jet.hessian[d][d] - n[d] * dot(jet.hessian[d], n);
     return sum / (h * h);
   }
 
-  std::optional<BandGeometry<T, D>> geometry_;
+  detail::LevelGeometry<Geometry, T, D> geometry_;
   std::vector<FieldPatch<T, D>> patches_;
 };
 
