@@ -119,9 +119,10 @@ double run_to_rest(P& pattern, double end, double still) {
 /// Noise to its pattern. \param turn  angle by which the noise is turned about an oblique axis
 /// The tolerance is far below the noise: waves that should decay while they oscillate must not be kept alive by long
 /// steps whose error goes unseen.
+template <class Stencil>
 json selection_run(const Vec<2>& diffusivity, double radius, std::ptrdiff_t cells, int seed, double turn, double end,
                    double amplitude = 1e-3) {
-  using Pattern = SurfacePattern<LinearisedBrusselator>;
+  using Pattern = SurfacePattern<LinearisedBrusselator, FixedSurface, StabilisedSteps, Stencil>;
   Pattern pattern(sphere(radius, cells), varea_spots, diffusivity, {},
                   {.steps = {.absolute = 1e-3 * amplitude, .relative = 1e-3}});
   const bench::HarmonicNoise noise(static_cast<std::uint64_t>(seed), 12);
@@ -137,7 +138,7 @@ json selection_run(const Vec<2>& diffusivity, double radius, std::ptrdiff_t cell
   const double start = bench::cpu_seconds();
   const double rest = run_to_rest(pattern, end, 1e-6);
   const double seconds = bench::cpu_seconds() - start;
-  SurfaceIntegral<SurfaceLaplacian<2>> integral(pattern.surface(), pattern.band());
+  SurfaceIntegral<Stencil> integral(pattern.surface(), pattern.band());
   const auto c = pattern.concentration(0);
   const auto a = bench::amplitudes(pattern.band(), integral.weights(), c, centre, 12);
   const auto power = bench::spectrum(a);
@@ -145,24 +146,35 @@ json selection_run(const Vec<2>& diffusivity, double radius, std::ptrdiff_t cell
   const double off = bench::off_octahedron(found);
   const auto [low, high] = std::ranges::minmax(c);
   std::printf(
-      "R %g, %td cells, seed %d, turned %.2f: t = %.0f, l = 4: %.1f%%, %zu spots, off octahedron %.2f, "
+      "R %g, %td cells, order %d, seed %d, turned %.2f: t = %.0f, l = 4: %.1f%%, %zu spots, off octahedron %.2f, "
       "c1 in [%.3f, %.3f], %.1f s\n",
-      radius, cells, seed, turn, rest, 100.0 * power[4], found.size(), off, low, high, seconds);
+      radius, cells, Stencil::order, seed, turn, rest, 100.0 * power[4], found.size(), off, low, high, seconds);
   std::fflush(stdout);
-  return {{"radius", radius}, {"cells", cells},       {"seed", seed},          {"turn", turn},
-          {"time", rest},     {"spectrum", power},    {"spots", found.size()}, {"angles", bench::pair_angles(found)},
-          {"off", off},       {"range", {low, high}}, {"mean", a[0]},          {"seconds", seconds}};
+  return {{"radius", radius},
+          {"cells", cells},
+          {"order", Stencil::order},
+          {"seed", seed},
+          {"turn", turn},
+          {"time", rest},
+          {"spectrum", power},
+          {"spots", found.size()},
+          {"angles", bench::pair_angles(found)},
+          {"off", off},
+          {"range", {low, high}},
+          {"mean", a[0]},
+          {"seconds", seconds}};
 }
 
 /// Every seed on every lattice, and turned against the coarsest.
+template <class Stencil>
 json selection(const std::vector<std::ptrdiff_t>& cells, int seeds, double end, double amplitude) {
   json result = json::array();
   for (int seed = 1; seed <= seeds; ++seed) {
     for (const std::ptrdiff_t n : cells) {
-      result.push_back(selection_run(varea_diffusivities, 2.0, n, seed, 0.0, end, amplitude));
+      result.push_back(selection_run<Stencil>(varea_diffusivities, 2.0, n, seed, 0.0, end, amplitude));
     }
     if (cells.size() > 1)
-      result.push_back(selection_run(varea_diffusivities, 2.0, cells[0], seed, 1.0, end, amplitude));
+      result.push_back(selection_run<Stencil>(varea_diffusivities, 2.0, cells[0], seed, 1.0, end, amplitude));
   }
   return result;
 }
@@ -209,7 +221,7 @@ json spectra(std::ptrdiff_t cells, double end) {
 json printed(std::ptrdiff_t cells, int seeds) {
   json result = json::array();
   for (int seed = 1; seed <= seeds; ++seed) {
-    result.push_back(selection_run(varea_printed_diffusivities, 1.0, cells, seed, 0.0, 400.0));
+    result.push_back(selection_run<SurfaceLaplacian<2>>(varea_printed_diffusivities, 1.0, cells, seed, 0.0, 400.0));
   }
   return result;
 }
@@ -322,13 +334,14 @@ json cost(std::ptrdiff_t cells, double end, bool quick) {
 int main(int argc, char** argv) {
   CLI::App app("Patterns on spheres against theory, and their cost");
   bool with_rates = false, with_selection = false, with_printed = false, with_cost = false, with_spectra = false;
-  bool quick = BENCH_SMOKE;
+  bool quick = BENCH_SMOKE, fourth = false;
   std::vector<std::ptrdiff_t> cells{64};
   int seeds = 10;
   double end = 2500.0, amplitude = 1e-3;
   std::string file;
   app.add_flag("--rates", with_rates, "growth rates of spherical harmonics");
   app.add_flag("--selection", with_selection, "which pattern noise grows into");
+  app.add_flag("--fourth", fourth, "the same with the stencils of fourth order");
   app.add_flag("--printed", with_printed, "the same for the printed parameters on the unit sphere");
   app.add_flag("--spectra", with_spectra,
                "what spots and stripes of Koch and Meinhardt consist of, at t = 8 times --end");
@@ -342,9 +355,12 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   json result;
   if (with_rates || quick) result["rates"] = rates(quick ? 32 : cells[0], quick);
-  if (with_selection || quick)
-    result["selection"] =
-        selection(quick ? std::vector<std::ptrdiff_t>{32} : cells, quick ? 1 : seeds, quick ? 100.0 : end, amplitude);
+  if ((with_selection && !fourth) || quick)
+    result["selection"] = selection<SurfaceLaplacian<2>>(quick ? std::vector<std::ptrdiff_t>{32} : cells,
+                                                         quick ? 1 : seeds, quick ? 100.0 : end, amplitude);
+#if !BENCH_SMOKE
+  if (fourth) result["selection"] = selection<SurfaceLaplacian<4>>(cells, seeds, end, amplitude);
+#endif
   if (with_spectra) result["spectra"] = spectra(cells[0], 8.0 * end);
   if (with_printed) result["printed"] = printed(cells[0], seeds);
   if (with_cost || quick) result["cost"] = cost(quick ? 32 : cells[0], quick ? 20.0 : end, quick);
