@@ -31,12 +31,12 @@ Cells rectangle(const Index<2>& nodes, double mass, bool periodic = false) {
   return cells;
 }
 
-/// Calls f(entry) for all cells.
+/// Calls f(entry) for all cells, without the images that periodic axes have.
 template <class F>
 void each(const Cells& cells, F&& f) {
-  for (std::size_t at = 0; at < cells.grid.size(); ++at) {
-    if (cells.inverse[at] > 0.0) f(at);
-  }
+  cells.for_each_row(Serial{}, [&](const Index<2>&, std::size_t start) {
+    for (std::size_t at = start; at < start + static_cast<std::size_t>(cells.grid.nodes[0]); ++at) f(at);
+  });
 }
 AlignedVector<double> noise(const Cells& cells, unsigned seed) {
   std::mt19937 random(seed);
