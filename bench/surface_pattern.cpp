@@ -150,18 +150,10 @@ json selection_run(const Vec<2>& diffusivity, double radius, std::ptrdiff_t cell
       "c1 in [%.3f, %.3f], %.1f s\n",
       radius, cells, Stencil::order, seed, turn, rest, 100.0 * power[4], found.size(), off, low, high, seconds);
   std::fflush(stdout);
-  return {{"radius", radius},
-          {"cells", cells},
-          {"order", Stencil::order},
-          {"seed", seed},
-          {"turn", turn},
-          {"time", rest},
-          {"spectrum", power},
-          {"spots", found.size()},
-          {"angles", bench::pair_angles(found)},
-          {"off", off},
-          {"range", {low, high}},
-          {"mean", a[0]},
+  return {{"radius", radius},  {"cells", cells},        {"order", Stencil::order},
+          {"seed", seed},      {"turn", turn},          {"time", rest},
+          {"spectrum", power}, {"spots", found.size()}, {"angles", bench::pair_angles(found)},
+          {"off", off},        {"range", {low, high}},  {"mean", a[0]},
           {"seconds", seconds}};
 }
 
