@@ -1,17 +1,20 @@
 // SPDX-FileCopyrightText: The Cambium authors
 // SPDX-License-Identifier: BSD-3-Clause
 #define BOOST_TEST_MODULE surface_pattern
+#include <algorithm>
 #include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <support/count_allocations.hpp>
 #include <support/order.hpp>
 #include <tuple>
+#include <vector>
 
 #include <cambium/levelset/measures.hpp>
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/models.hpp>
 #include <cambium/reaction.hpp>
+#include <cambium/time.hpp>
 
 using namespace cambium;
 
@@ -144,4 +147,19 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(chemistry_of_either_precision_allocates_no_arrays,
                                      std::exp(-1.0) * mode(pattern.band().point(k))));
   }
   BOOST_TEST(worst < 3e-3);  // 1.5e-3 measured, of the second-order stencil
+}
+
+BOOST_AUTO_TEST_CASE(an_explicit_step_beyond_its_limit_is_refused) {
+  using State = Columns<1, double>;
+  SurfacePattern<Inert, FixedSurface, StabilisedSteps, SurfaceLaplacian<2>, 2> pattern(ball<2>(1.0, 1.6, 48), Inert{},
+                                                                                       Vec<1>{0.5});
+  pattern.sample([](const Vec<2>& x) { return Vec<1>{1.0 + x[0]}; });
+  const std::vector<double> before(pattern.concentration(0).begin(), pattern.concentration(0).end());
+  const double limit = 2.0 / (0.5 * pattern.band().spectral_radius());
+  const auto rate = [&](const auto& c, double, const auto& to) { pattern.rate(c, to); };
+  FixedSteps<Euler, State> euler;
+  BOOST_CHECK_THROW(euler.advance(pattern.state(), 0.0, 1.2 * limit, 100, rate), StabilityError);
+  BOOST_TEST(std::ranges::equal(before, pattern.concentration(0)));
+  euler.advance(pattern.state(), 0.0, 0.95 * limit, 100, rate);
+  for (const double c : pattern.concentration(0)) BOOST_TEST(std::abs(c - 1.0) < 1.0);
 }
