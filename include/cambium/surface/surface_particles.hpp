@@ -97,10 +97,10 @@ class SurfaceParticles {
     detail::require_step(t, dt);
     move_(
         view(foot_), [](std::size_t) { return T(1); }, velocity, t, dt, params_.substeps, execution);
-    BandGeometry<T, D> geometry(after.lattice());
-    typename CentredDifferences<4>::template Method<T, D>()(after.band(), geometry, execution);
+    if (!geometry_ || !(geometry_->normal.lattice() == after.lattice())) geometry_.emplace(after.lattice());
+    find_geometry_(after.band(), *geometry_, execution);
     for (auto& column : normal_) column.resize(size());
-    interpolator_.m2p(geometry.normal, constant(foot_), view(normal_), execution);
+    interpolator_.m2p(geometry_->normal, constant(foot_), view(normal_), execution);
     for_each(execution, size(), [&](std::size_t p) {
       Vec<D, T> n = view(normal_)[p];
       n /= norm(n);
@@ -163,6 +163,8 @@ class SurfaceParticles {
   AlignedVector<T> phi_;
   std::array<AlignedVector<T>, C + 1> sums_;  ///< strengths, then volumes
   detail::Mover<T, D, S> move_;
+  typename CentredDifferences<4>::template Method<T, D> find_geometry_;
+  std::optional<BandGeometry<T, D>> geometry_;  ///< of the interface that has moved
   detail::VolumeRatio<T, D> ratio_;
   Interpolator<Kernel> interpolator_;
   std::optional<Field<Vec<C + 1, T>, D, Sparse>> on_nodes_;
