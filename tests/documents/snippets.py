@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Cambium authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Snippets of the pages, put together to one source that must compile: snippets.py OUTPUT
+"""Compiles the snippets of the pages, put together to one source, with the flags of a build: snippets.py BUILD
 
 A ```cpp block is a whole program (then it is an example), a part of a file of tests/consume (which compiles it), or a part
 of a program of its own: the blocks of a page in their order, within a function, after what a comment `<!-- given: ... -->` says
@@ -8,10 +8,15 @@ the reader has. Definitions that begin at the margin are put in front of the fun
 """
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 
 PROJECT = Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(PROJECT / "scripts"))
+
+from compile_flags import compile_flags  # noqa: E402
+
 PAGES = [PROJECT / n for n in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md")] + sorted((PROJECT / "docs").rglob("*.md"))
 DEFINITION = re.compile(r"^(?:template <.*>\n)?(?:struct|class) \w+ \{.*?^\};\n|^template <.*?^\};\n", re.MULTILINE | re.DOTALL)
 
@@ -52,7 +57,13 @@ def source(pages):
     return "".join(includes) + "\n" + "\n".join(parts)
 
 
+def main(build):
+    """Syntax and types alone: nothing is run. A page shows names that it does not use, hence no warnings."""
+    command = [*compile_flags(build), "-w", "-x", "c++", "-"]
+    return subprocess.run(command, input=source(PAGES), text=True, check=False).returncode
+
+
 if __name__ == "__main__":
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    Path(sys.argv[1]).write_text(source(PAGES))
+    sys.exit(main(sys.argv[1]))
