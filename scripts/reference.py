@@ -15,6 +15,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from project_version import project_version
+
 PROJECT = Path(__file__).resolve().parent.parent
 UNDOCUMENTED = re.compile(r"(\S+?):(\d+): warning: (?:Member|Compound) (.*) is not documented\.$")
 
@@ -52,9 +54,7 @@ def sentence_for(said, header, member):
 
 
 def doxygen(output, headers):
-    header = (PROJECT / "include" / "cambium" / "core" / "version.hpp").read_text()
-    version = ".".join(re.findall(r"^#define CAMBIUM_VERSION_\w+ (\d+)$", header, re.MULTILINE))
-    names = {"CAMBIUM_VERSION": version, "CAMBIUM_DOCS": str(output), "CAMBIUM_HEADERS": str(headers)}
+    names = {"CAMBIUM_VERSION": project_version(), "CAMBIUM_DOCS": str(output), "CAMBIUM_HEADERS": str(headers)}
     run = subprocess.run(
         ["doxygen", "Doxyfile"], cwd=PROJECT, env={**os.environ, **names}, capture_output=True, text=True, check=False
     )

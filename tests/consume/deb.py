@@ -6,7 +6,6 @@ deb.py CPACK BUILD COMPILER FOLDER OPENMP
 """
 
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -14,22 +13,20 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parent.parent
+sys.path.insert(0, str(PROJECT / "scripts"))
+
+from project_version import project_version  # noqa: E402
 
 
 def output(*command, **options):
     return subprocess.run(command, check=True, capture_output=True, text=True, **options).stdout.strip()
 
 
-def version():
-    header = PROJECT / "include" / "cambium" / "core" / "version.hpp"
-    return ".".join(re.findall(r"^#define CAMBIUM_VERSION_\w+ (\d+)$", header.read_text(), re.MULTILINE))
-
-
 def check_fields(package, openmp):
     """Every library whose headers are included is declared, and what is declared is what this machine builds with."""
     field = lambda name: output("dpkg-deb", "--field", str(package), name)  # noqa: E731
     assert field("Package") == "libcambium-dev", field("Package")
-    assert field("Version") == version(), field("Version")
+    assert field("Version") == project_version(), field("Version")
     assert field("Architecture") == "all", field("Architecture")
     depends = field("Depends")
     for library in ("libeigen3-dev", "libxsimd-dev", "libfftw3-dev"):
@@ -42,7 +39,7 @@ def check_fields(package, openmp):
 
 def compile_with_pkg_config(compiler, prefix, folder):
     search = {**os.environ, "PKG_CONFIG_PATH": str(prefix / "share" / "pkgconfig")}
-    assert output("pkg-config", "--modversion", "cambium", env=search) == version()
+    assert output("pkg-config", "--modversion", "cambium", env=search) == project_version()
     flags = output("pkg-config", "--cflags", "--libs", "cambium", env=search).split()
     assert any(Path(f[2:]).resolve() == prefix / "include" for f in flags if f.startswith("-I")), flags
     program = folder / "program"

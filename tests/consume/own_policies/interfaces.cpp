@@ -3,10 +3,10 @@
 
 // Policies of a user's own for level sets, conditions on interfaces and models: each is found to do what it declares.
 #include <cmath>
-#include <cstdio>
 
 #include <cambium/levelset.hpp>
 
+#include "check.hpp"
 #include "extension.hpp"
 #include "jump_rule.hpp"
 #include "necrosis.hpp"
@@ -14,21 +14,10 @@
 #include "shape.hpp"
 #include "surface_motion.hpp"
 
-namespace {
-
 using namespace cambium;
 
-int failures = 0;
-
-void check(const char* what, double found, double wanted, double tolerance) {
-  const bool good = std::abs(found - wanted) <= tolerance;
-  std::printf("%-28s %.12g, wanted %.12g%s\n", what, found, wanted, good ? "" : ": WRONG");
-  failures += good ? 0 : 1;
-}
-
-}  // namespace
-
 int main() {
+  Checks check;
   check_shape<Diamond<3>>();
   check_extension<ByNearestNode>();
   check_jump_rule<LinearJump>();
@@ -50,5 +39,5 @@ int main() {
   const NarrowBand<double, 2> band(plane, 3.0 * plane.spacing());
   check("growth where fed", Resting::source({.necrotic_limit = 0.5}, nutrient, band, 0), 20.0 * (0.9 - 0.5), 1e-12);
   check("growth where starved", Resting::source({.necrotic_limit = 0.95}, nutrient, band, 0), 0.0, 0.0);
-  return failures;
+  return check.failures;
 }

@@ -3,11 +3,11 @@
 
 // Policies of a user's own for particles, operators, time and kinetics: each is found to do what it declares.
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include <cambium/cambium.hpp>
 
+#include "check.hpp"
 #include "kinetics.hpp"
 #include "pse_kernel.hpp"
 #include "stepper.hpp"
@@ -17,16 +17,8 @@ namespace {
 
 using namespace cambium;
 
-int failures = 0;
-
-void check(const char* what, double found, double wanted, double tolerance) {
-  const bool good = std::abs(found - wanted) <= tolerance;
-  std::printf("%-28s %.12g, wanted %.12g%s\n", what, found, wanted, good ? "" : ": WRONG");
-  failures += good ? 0 : 1;
-}
-
 /// -Lap u = f for u = sin x, by a symbol of fourth order: exact for waves up to (2 pi / 32)^4 / 240.
-void symbol() {
+void symbol(Checks& check) {
   const auto lattice = Lattice<2>::periodic_box(Box<2>::cube(2.0 * std::numbers::pi), 32);
   const auto f = sample(lattice, [](const Vec<2>& x) { return std::sin(x[0]); });
   Field<double, 2> u(lattice);
@@ -50,16 +42,17 @@ double error_of_turn(int steps) {
 }  // namespace
 
 int main() {
+  Checks check;
   check_mollifier<Normal>();
   check_pse_kernel<Normal>();
   check_kinetics<PreyAndPredators>();
   check_stepper<Midpoint<std::vector<double>>, std::vector<double>>();
 
-  symbol();
+  symbol(check);
   check("Normal at its centre", scaled_mollifier<Normal>(Vec<2>{}, 1.0), 0.5 / std::numbers::pi, 1e-14);
   check("order of the stepper", std::log2(error_of_turn(64) / error_of_turn(128)), 2.0, 0.1);
   const Vec<2> state = fixed_point(PreyAndPredators{}, Vec<2>{0.6, 0.9});
   check("prey at rest", state[0], 0.5, 1e-10);
   check("predators at rest", state[1], 1.0, 1e-10);
-  return failures;
+  return check.failures;
 }
