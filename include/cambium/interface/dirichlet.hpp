@@ -57,10 +57,7 @@ class Dirichlet {
         levels_(lattice_, params.walls, params.smoother, execution),
         krylov_(execution) {
     check_smoother<S>();
-    if (!(params.shift >= 0.0) || !std::isfinite(params.shift)) {
-      throw ValueError(detail::message("the shift s of s - Lap is ", params.shift, ": it must be finite and >= 0"));
-    }
-    update(band);
+    update(band, params.shift);
   }
 
   const Lattice<D>& lattice() const { return lattice_; }
@@ -79,6 +76,16 @@ class Dirichlet {
     }
     data_.clear();
     levels_.update(band, params_.side, params_.shift * lattice_.spacing() * lattice_.spacing());
+  }
+  /// And another shift, as implicit steps in time of another length have. \throws also ValueError if it is negative or
+  /// not finite; nothing has changed then
+  template <class B>
+  void update(const NarrowBand<B, D>& band, double shift) {
+    if (!(shift >= 0.0) || !std::isfinite(shift)) {
+      throw ValueError(detail::message("the shift s of s - Lap is ", shift, ": it must be finite and >= 0"));
+    }
+    params_.shift = shift;
+    update(band);
   }
 
   /// \param f  right-hand side, read at nodes of the domain
