@@ -66,7 +66,7 @@ class TumourGrowth {
         drop_(lattice),
         speed_(lattice, unknown) {}
 
-  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest
+  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest, 0 for that itself
   template <class L>
   void evaluate(const L& level_set, double elapsed) {
     {
