@@ -108,3 +108,33 @@ BOOST_AUTO_TEST_CASE(the_gaussian_filter_damps_waves_as_a_gaussian_does) {
     BOOST_TEST(attenuation_error<2>(l, 2.0) < 2e-3);
   }
 }
+
+// Areas against what the sources inside have added: the trapezoidal rule from step to step.
+BOOST_AUTO_TEST_CASE(tumours_without_pressure_between_them_join_and_go_on) {
+  const auto box = Lattice<2>::bounded_box({Vec<2>::constant(-6.0), Vec<2>::constant(6.0)}, 64);
+  const auto pair = [](const Vec<2>& x) {
+    return std::min(norm(x - Vec<2>{1.6, 0.0}), norm(x + Vec<2>{1.6, 0.0})) - 1.3;
+  };
+  Tumour<2, ZeroOutside, SemiImplicit> tumour(box, pair, {.parameters = {.tension = 0.1}});
+  const auto gain = [&](double area) {
+    // G (1 - A) = 10 on the interface: what is left vanishes there, so that cut cells do not matter.
+    double sum = 10.0 * area;
+    detail::for_each_side(tumour.level_set().band(), Serial{}, [&](std::size_t i, bool inside) {
+      if (inside) sum += 20.0 * (tumour.nutrient()[i] - 1.0) * box.cell_volume();
+    });
+    return sum;
+  };
+  auto found = measures(tumour.level_set().band());
+  BOOST_TEST(found.inside_components == 2U);
+  double expected = found.volume, rate = gain(found.volume);
+  while (0.4 - tumour.time() > 1e-12) {
+    const double dt = tumour.step(0.4 - tumour.time()).dt;
+    found = measures(tumour.level_set().band());
+    const double now = gain(found.volume);
+    expected += 0.5 * dt * (rate + now);
+    rate = now;
+  }
+  BOOST_TEST_MESSAGE("off by " << found.volume / expected - 1.0);
+  BOOST_TEST(found.inside_components == 1U);
+  BOOST_TEST(std::abs(found.volume / expected - 1.0) < 0.05);
+}

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -66,6 +67,7 @@ class TumourGrowth {
         drop_(lattice),
         speed_(lattice, unknown) {}
 
+  /// Where interfaces meet, kinks have no curvature: it counts up to 1 / h, the tightest curve that the lattice holds.
   /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest, 0 for that itself
   template <class L>
   void evaluate(const L& level_set, double elapsed) {
@@ -82,9 +84,10 @@ class TumourGrowth {
     find_source(band);
     take_blocks(drop_, band);
     start_speed(band, speed_);
+    const double bound = 1.0 / band.spacing();
     for (std::size_t b = 0; b < band.blocks(); ++b) {
       for (std::size_t i = 0; i < Band::volume; ++i) {
-        drop_.block(b)[i] = parameters_.tension * geometry_.mean.block(b)[i];
+        drop_.block(b)[i] = parameters_.tension * std::clamp(geometry_.mean.block(b)[i], -bound, bound);
       }
     }
     outside_.attach(band, *points_, geometry_);
@@ -111,7 +114,8 @@ class TumourGrowth {
             const double mean = geometry_.mean.block(b)[i];
             double square = mean * mean;  // sum of the squares of the principal curvatures
             if constexpr (D == 3) square -= 2.0 * geometry_.gaussian.block(b)[i];
-            drop_.block(b)[i] = -parameters_.tension * (laplacian + square * jet.value);
+            drop_.block(b)[i] =
+                std::abs(mean) * h < 1.0 ? -parameters_.tension * (laplacian + square * jet.value) : 0.0;
           },
           [&](std::size_t i) { drop_.block(b)[i] = 0.0; });
     });
