@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include <cambium/interface/cut_domain.hpp>
