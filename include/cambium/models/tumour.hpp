@@ -162,7 +162,7 @@ class Tumour {
     } catch (...) {
       level_set_ = start_;
       last_step_ = last_step;
-      growth_.evaluate(level_set_, last_step > 0.0 ? last_step : std::numeric_limits<double>::infinity());
+      growth_.evaluate(level_set_, 0.0);
       throw;
     }
     step.unresolved = growth_.unresolved();

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -65,7 +66,8 @@ class TumourGrowth {
         drop_(lattice),
         speed_(lattice, unknown) {}
 
-  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest
+  /// Where interfaces meet, kinks have no curvature: it counts up to 1 / h, the tightest curve that the lattice holds.
+  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest, 0 for that itself
   template <class L>
   void evaluate(const L& level_set, double elapsed) {
     {
@@ -81,9 +83,10 @@ class TumourGrowth {
     find_source(band);
     take_blocks(drop_, band);
     start_speed(band, speed_);
+    const double bound = 1.0 / band.spacing();
     for (std::size_t b = 0; b < band.blocks(); ++b) {
       for (std::size_t i = 0; i < Band::volume; ++i) {
-        drop_.block(b)[i] = parameters_.tension * geometry_.mean.block(b)[i];
+        drop_.block(b)[i] = parameters_.tension * std::clamp(geometry_.mean.block(b)[i], -bound, bound);
       }
     }
     outside_.attach(band, *points_, geometry_);

@@ -38,8 +38,7 @@ class InsidePressure {
     points_ = &points;
   }
   /// As JumpPressure::solve(), with p = 0 outside, in two parts: that of f with p = 0 on the interface, whose slope is
-  /// taken by cubic polynomials, and that of the drop, see respond(). \throws InterfaceError if the tumour is too thin
-  /// for a gradient
+  /// taken by cubic polynomials, and that of the drop, see respond()
   void solve(Field<double, D>& f, const Values& drop, double, Field<double, D>& p, Values& speed) {
     solver_->solve(
         f, [](const Vec<D>&) { return 0.0; }, grown_);
