@@ -7,6 +7,7 @@
 
 #include <cambium/levelset/reinit/fast_marching.hpp>
 #include <cambium/levelset/shapes/ball.hpp>
+#include <cambium/levelset/surface.hpp>
 
 #include "tumour/grow.hpp"
 #include "tumour/verification.hpp"

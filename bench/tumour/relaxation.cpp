@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <cambium/levelset/shapes/ball.hpp>
+#include <cambium/levelset/surface.hpp>
 
 #include "tumour/grow.hpp"
 #include "tumour/verification.hpp"
