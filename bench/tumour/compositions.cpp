@@ -74,7 +74,7 @@ json compare_compositions(const TumourOptions& options) {
       runs.push_back(run<Tumour<2, Heun>>("Heun", "stepper", n, options));
     }
     runs.push_back(
-        run<Tumour<2, SemiImplicit, ReinitialiseBy<FastMarching>>>("FastMarching", "reinitialisation", n, options));
+        run<Tumour<2, SemiImplicit, ReinitialiseBy<FastMarching<>>>>("FastMarching", "reinitialisation", n, options));
     runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<1>>>("GaussianFilter<1>", "filter", n, options));
     runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<2>>>("GaussianFilter<2>", "filter", n, options));
   }
