@@ -15,3 +15,11 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/cambiumConfigVersion.cmak
 install(FILES ${PROJECT_BINARY_DIR}/cambiumConfig.cmake ${PROJECT_BINARY_DIR}/cambiumConfigVersion.cmake
               cmake/dependencies.cmake cmake/FindFFTW3.cmake DESTINATION ${package_dir})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+
+# For builds without CMake: g++ -std=c++20 program.cpp $(pkg-config --cflags --libs cambium)
+set(pkgconfig_openmp "")
+if(CAMBIUM_OPENMP)
+  set(pkgconfig_openmp ${OpenMP_CXX_FLAGS})
+endif()
+configure_file(cmake/cambium.pc.in ${PROJECT_BINARY_DIR}/cambium.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/cambium.pc DESTINATION ${CMAKE_INSTALL_DATADIR}/pkgconfig)

@@ -22,6 +22,5 @@
 #include <cambium/models/tumour/parameters.hpp>
 #include <cambium/models/tumour/periodic.hpp>
 #include <cambium/models/tumour/policy.hpp>
-#include <cambium/models/tumour/semi_implicit.hpp>
-#include <cambium/models/tumour/short_gmres.hpp>
 #include <cambium/models/tumour/sides.hpp>
+#include <cambium/models/tumour/value_at.hpp>

@@ -3,6 +3,7 @@
 """Tests of the checks themselves: each must accept a good tree and reject a fabricated bad one."""
 
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from check_compile_fail import check_source  # noqa: E402
 from check_headers_alone import compile_alone  # noqa: E402
 from check_layering import check  # noqa: E402
 from count_results import count  # noqa: E402
+from reference import escaped, insert, read_members, sentence_for  # noqa: E402
 
 TABLE = r"""
 # rooms from low to high
@@ -136,6 +138,35 @@ class Results(unittest.TestCase):
 
     def test_no_tests_at_all(self):
         self.assertEqual(count("<testsuite/>"), (0, 1))
+
+
+class Reference(unittest.TestCase):
+    SAID = read_members("# x\nlo: anywhere\n[core]\nlo, hi: in the room\n[core/box.hpp]\nlo: in the file\noperator+: sums\n")
+
+    def said(self, header, member):
+        return sentence_for(self.SAID, header, member)
+
+    def test_the_narrowest_place_counts(self):
+        self.assertEqual(self.said("core/box.hpp", "lo (variable) of struct cambium::Box"), "in the file")
+        self.assertEqual(self.said("core/vec.hpp", "lo (variable) of struct cambium::Vec"), "in the room")
+        self.assertEqual(self.said("time/rk4.hpp", "lo (variable) of class cambium::RK4"), "anywhere")
+        self.assertEqual(self.said("core/box.hpp", "operator+(Box a, const Box &b) (friend) of struct cambium::Box"), "sums")
+
+    def test_what_nothing_is_said_of_is_left(self):
+        self.assertIsNone(self.said("time/rk4.hpp", "hi (variable) of class cambium::RK4"))
+        self.assertIsNone(self.said("core/box.hpp", "operator+=(const Box &b) (function) of struct cambium::Box"))
+
+    def test_comments_stand_above_the_template(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "a.hpp"
+            path.write_text("template <class T>\nrequires(true) struct A {\n  int a;\n  template <class U>\n  int b();\n};\n")
+            insert(path, {3: "one", 5: "two"})
+            lines = path.read_text().splitlines()
+        self.assertEqual((lines[2], lines[3], lines[4], lines[5]), ("/// one", "  int a;", "/// two", "  template <class U>"))
+
+    def test_template_parameters_are_no_tags(self):
+        self.assertEqual(escaped("  /// Box<D>"), r"  /// Box\<D>")
+        self.assertEqual(escaped("  ///     Box<D> box;"), "  ///     Box<D> box;")
 
 
 if __name__ == "__main__":

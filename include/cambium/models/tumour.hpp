@@ -87,6 +87,7 @@ class Tumour {
   struct Params {
     TumourParameters parameters = {};
     double courant = 0.25;   ///< spacings that the interface travels in a step
+    double change = 0.15;    ///< of the speed in a step, relative to it
     double stiffness = 0.8;  ///< share of the step up to which surface tension is stable that explicit steps take
     std::ptrdiff_t wall_distance = 5;  ///< nodes from a bounded face at which the tumour counts as having reached it
     double smallest_radius = 3.0;      ///< in spacings: a tumour of the volume of a smaller ball counts as extinct
@@ -101,6 +102,7 @@ class Tumour {
       : params_(checked(params)),
         execution_(execution),
         level_set_(lattice, shape, params.interface, execution),
+        start_(level_set_),
         growth_(lattice, params.interface.half_width, params.parameters, execution),
         stepping_(lattice),
         motion_(lattice, params.motion),
@@ -126,7 +128,8 @@ class Tumour {
   const TumourTimes& times() const { return growth_.times(); }
   bool extinct() const { return extinct_; }
 
-  /// The step that would be taken, at most `longest`, and what bounds it.
+  /// The step that would be taken, at most `longest`, or half of it if the rest of it would be shorter than the step;
+  /// and what bounds it.
   TumourStep next_step(double longest = std::numeric_limits<double>::infinity()) const {
     TumourStep step;
     step.largest_speed = largest_speed();
@@ -135,8 +138,9 @@ class Tumour {
     const StepSize tension = tension_bound();
     step.advection_limit = advection.dt;
     step.tension_limit = tension.dt;
-    StepSize size = smallest({advection, tension});
+    StepSize size = smallest({advection, tension, growth_bound(advection), change_bound()});
     if (longest < size.dt) size = given_limit(longest);
+    if (size.dt < longest && longest < 2.0 * size.dt) size.dt = 0.5 * longest;  // two equal ones, not a very short last
     step.dt = size.dt;
     step.bound = size.bound;
     return step;
@@ -151,12 +155,12 @@ class Tumour {
     if (!std::isfinite(step.dt)) {
       throw ValueError("the interface is at rest and nothing bounds the step: say how long it may be at most");
     }
-    const Interface start = level_set_;
+    start_ = level_set_;
     const double last_step = last_step_;
     try {
       advance(step);
     } catch (...) {
-      level_set_ = start;
+      level_set_ = start_;
       last_step_ = last_step;
       growth_.evaluate(level_set_, last_step > 0.0 ? last_step : std::numeric_limits<double>::infinity());
       throw;
@@ -173,13 +177,14 @@ class Tumour {
 
   static const Params& checked(const Params& params) {
     require_parameters(params.parameters);
-    if (params.courant > 0.0 && params.stiffness > 0.0 && params.smallest_radius > 0.0 && params.wall_distance >= 3 &&
-        std::isfinite(params.courant) && std::isfinite(params.stiffness)) {
+    if (params.courant > 0.0 && params.change > 0.0 && params.stiffness > 0.0 && params.smallest_radius > 0.0 &&
+        params.wall_distance >= 3 && std::isfinite(params.courant) && std::isfinite(params.stiffness) &&
+        !std::isnan(params.change)) {
       return params;
     }
-    throw ValueError(detail::message("tumour with CFL number ", params.courant, ", share of the stable step ",
-                                     params.stiffness, ", smallest radius ", params.smallest_radius,
-                                     " and distance from walls ", params.wall_distance,
+    throw ValueError(detail::message("tumour with CFL number ", params.courant, ", change of the speed ", params.change,
+                                     ", share of the stable step ", params.stiffness, ", smallest radius ",
+                                     params.smallest_radius, " and distance from walls ", params.wall_distance,
                                      ": all must be positive and finite, the last 3 at least"));
   }
 
@@ -190,7 +195,7 @@ class Tumour {
       require_off_walls();
     };
     if constexpr (Stepping::keeps_speed) now_ = growth_.speed();
-    step.iterations = stepping_(level_set_, growth_, before_, step.dt, last_step_, rate_, move, execution_);
+    step.iterations = stepping_(level_set_, start_, growth_, before_, step.dt, last_step_, rate_, move, execution_);
     growth_.evaluate(level_set_, step.dt);
     growth_.accept();
     if constexpr (Stepping::keeps_speed) std::swap(before_, now_);
@@ -219,8 +224,42 @@ class Tumour {
   }
   /// Surface tension makes waves of wave number k decay at gamma k^3 / 2 (free space) or gamma k^3 (p = 0 outside).
   StepSize tension_bound() const {
-    return tension_limit(params_.stiffness, level_set_.spacing(),
-                         (Outside::reaches_outside ? 0.5 : 1.0) * params_.parameters.tension, Stepping::real_axis);
+    if constexpr (std::isinf(Stepping::real_axis)) {
+      return {};
+    } else {
+      return tension_limit(params_.stiffness, level_set_.spacing(), growth_.tension_mobility(), Stepping::real_axis);
+    }
+  }
+  /// Rules of two steps are stable if these do not grow by 1 + sqrt(2) at once. They begin with one of first order,
+  /// which is short.
+  StepSize growth_bound(const StepSize& advection) const {
+    if constexpr (!Stepping::keeps_speed) return {};
+    if (last_step_ > 0.0) return {2.0 * last_step_, Limit::growth};
+    const StepSize tension = tension_limit(params_.stiffness, level_set_.spacing(), growth_.tension_mobility());
+    return {std::min(0.25 * advection.dt, tension.dt), Limit::growth};
+  }
+  /// Speeds may change by a share, unless what they change by moves the interface by less than a thousandth of a
+  /// spacing: next to rest they are those of the lattice, not of the tumour. Both are root mean squares.
+  StepSize change_bound() const {
+    if (!Stepping::keeps_speed || !(last_step_ > 0.0)) return {};
+    const Band& band = level_set_.band();
+    double squares = 0.0, changes = 0.0, count = 0.0;
+    for (std::size_t b = 0; b < band.blocks(); ++b) {
+      const std::ptrdiff_t old = before_.find(band.values().block_index(b));
+      for (std::size_t i = 0; old >= 0 && i < Band::volume; ++i) {
+        if (std::abs(band.values().block(b)[i]) > band.spacing()) continue;
+        const double now = speed().block(b)[i], then = before_.block(static_cast<std::size_t>(old))[i];
+        if (std::isnan(now) || std::isnan(then)) continue;
+        squares += now * now;
+        changes += (now - then) * (now - then);
+        count += 1.0;
+      }
+    }
+    if (!(changes > 0.0)) return {};
+    const double change = std::sqrt(changes / count) / last_step_;
+    return {
+        std::max(params_.change * std::sqrt(squares / count) / change, std::sqrt(1e-3 * level_set_.spacing() / change)),
+        Limit::accuracy};
   }
   void find_size() {
     std::size_t nodes = 0;
@@ -234,6 +273,7 @@ class Tumour {
   Params params_;
   OpenMP execution_;
   Interface level_set_;
+  Interface start_;  ///< of the step, to return to if it fails
   Growth growth_;
   typename Stepping::template Method<D> stepping_;
   typename Motion::template Method<D> motion_;

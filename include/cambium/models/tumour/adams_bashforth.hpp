@@ -12,14 +12,13 @@ namespace cambium {
 
 namespace detail {
 
-/// rate := V + dt / (2 dt_before) (V - V_before), Adams and Bashforth's second-order rule for steps of any length; V
-/// where nothing is known of before. \param before  speeds at nodes of another band, NaN where there is none
+/// rate := V + part (V - V_before); V where nothing is known of before.
+/// \param before  speeds at nodes of another band, NaN where there is none
 template <int D>
-void extrapolate_speed(const Field<double, D, Sparse>& speed, const Field<double, D, Sparse>& before, double dt,
-                       double dt_before, Field<double, D, Sparse>& rate, const OpenMP& execution) {
+void extrapolate_speed(const Field<double, D, Sparse>& speed, const Field<double, D, Sparse>& before, double part,
+                       Field<double, D, Sparse>& rate, const OpenMP& execution) {
   rate = speed;
-  if (!(dt_before > 0.0)) return;
-  const double part = 0.5 * dt / dt_before;
+  if (part == 0.0) return;
   for_each_piece(execution, rate.blocks(), 1, [&](std::size_t b, std::size_t) {
     const std::ptrdiff_t old = before.find(rate.block_index(b));
     if (old < 0) return;
@@ -33,8 +32,9 @@ void extrapolate_speed(const Field<double, D, Sparse>& speed, const Field<double
 
 }  // namespace detail
 
-/// Explicit steps of second order with one evaluation each: Adams and Bashforth's, the first being Euler's. Bound by
-/// the stiffness of the surface tension. The speed of the last step is kept.
+/// Explicit steps of second order with one evaluation each: Adams and Bashforth's, V + dt / (2 dt_before) (V -
+/// V_before), the first being Euler's. Bound by the stiffness of the surface tension. The speed of the last step is
+/// kept.
 struct AdamsBashforth {
   using Kind = tumour_kind::Stepping;
   static constexpr bool keeps_speed = true;
@@ -46,11 +46,12 @@ struct AdamsBashforth {
   class Method {
    public:
     explicit Method(const Lattice<D>&) {}
-    /// Calls move(rate) once. \param growth  evaluated at `level_set`
+    /// Calls move(rate), which moves `level_set`, as often as needed. \param start  copy of `level_set`
+    /// \param growth  evaluated at `level_set`
     template <class L, class Growth, class Move>
-    int operator()(L&, Growth& growth, const Field<double, D, Sparse>& before, double dt, double dt_before,
+    int operator()(L&, const L&, Growth& growth, const Field<double, D, Sparse>& before, double dt, double dt_before,
                    Field<double, D, Sparse>& rate, Move&& move, const OpenMP& execution) {
-      detail::extrapolate_speed(growth.speed(), before, dt, dt_before, rate, execution);
+      detail::extrapolate_speed(growth.speed(), before, dt_before > 0.0 ? 0.5 * dt / dt_before : 0.0, rate, execution);
       move(rate);
       return 0;
     }

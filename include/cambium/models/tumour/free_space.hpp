@@ -11,7 +11,8 @@ namespace cambium {
 /// Lap p = 0 outside, in free space: p falls off (like the logarithm in the plane). The default.
 struct FreeSpace {
   using Kind = tumour_kind::Outside;
-  static constexpr bool reaches_outside = true;
+  /// Speed that a drop of the pressure with short waves causes, over their wave number.
+  static constexpr double mobility = 0.5;
 
   template <int D, class K>
   using Method = detail::JumpPressure<D, FreeSpacePoisson<D, double, OpenMP>, K>;

@@ -8,7 +8,6 @@
 
 #include <cambium/kernels/lambda.hpp>
 #include <cambium/levelset/closest_points.hpp>
-#include <cambium/levelset/field_patch.hpp>
 #include <cambium/levelset/geometry/at_closest_points.hpp>
 #include <cambium/models/tumour/parameters.hpp>
 #include <cambium/models/tumour/sides.hpp>
@@ -93,30 +92,11 @@ class TumourGrowth {
   }
   void accept() { nutrient_.accept(c_); }
 
-  /// What moving by x for a unit of time would change of the speed by the surface tension: with
-  /// kappa' = -Lap_Gamma x - |A|^2 x, the speed due to a drop of gamma kappa' of the pressure.
-  void tension_response(const Band& band, const Values& x, Values& response) {
-    take_blocks(drop_, band);
-    patches_.resize(static_cast<std::size_t>(execution_.count()));
-    const double h = band.spacing();
-    for_each_piece_by_worker(execution_, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
-      FieldPatch<double, D>& patch = patches_[worker];
-      for_each_closest_point(
-          *points_, band, b, x, patch,
-          [&](std::size_t i, const Vec<D>& u) {
-            const Jet<double, D> jet = Interpolant<Kernel, double, D>::jet(patch.data(0), patch.stride(), u);
-            double laplacian = 0.0;
-            const Vec<D>& n = geometry_.normal.block(b)[i];
-            for (int d = 0; d < D; ++d) laplacian += (jet.hessian[d][d] - n[d] * dot(jet.hessian[d], n)) / (h * h);
-            const double mean = geometry_.mean.block(b)[i];
-            double square = mean * mean;  // sum of the squares of the principal curvatures
-            if constexpr (D == 3) square -= 2.0 * geometry_.gaussian.block(b)[i];
-            drop_.block(b)[i] = -parameters_.tension * (laplacian + square * jet.value);
-          },
-          [&](std::size_t i) { drop_.block(b)[i] = 0.0; });
-    });
-    start_speed(band, response);
-    outside_.respond(drop_, response);
+  /// gamma times the speed that a drop of the pressure with short waves causes, over their wave number.
+  double tension_mobility() const { return Outside::mobility * parameters_.tension; }
+  /// Closest point of node i of block b, which must have one.
+  Vec<D> closest_point(const Band& band, std::size_t b, std::size_t i) const {
+    return band.lattice().position(band.values().node(b, i)) + points_->offset(b, i) * band.spacing();
   }
   /// Gives a field the blocks of the band, 0 where there is a closest point and NaN elsewhere.
   void start_speed(const Band& band, Values& speed) const {
@@ -168,7 +148,6 @@ class TumourGrowth {
   typename Filter::template Method<D> filter_;
   Field<double, D> c_, p_, source_;
   Values drop_, speed_;
-  std::vector<FieldPatch<double, D>> patches_;
 };
 
 }  // namespace detail

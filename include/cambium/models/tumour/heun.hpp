@@ -22,10 +22,9 @@ struct Heun {
    public:
     explicit Method(const Lattice<D>&) {}
     template <class L, class Growth, class Move>
-    int operator()(L& level_set, Growth& growth, const Field<double, D, Sparse>&, double dt, double,
+    int operator()(L& level_set, const L& start, Growth& growth, const Field<double, D, Sparse>&, double dt, double,
                    Field<double, D, Sparse>& rate, Move&& move, const OpenMP& execution) {
       rate = growth.speed();
-      const L start = level_set;
       move(rate);
       growth.evaluate(level_set, dt);
       const auto& later = growth.speed();

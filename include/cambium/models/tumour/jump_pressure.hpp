@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <optional>
-
 #include <cambium/interface/jump.hpp>
 #include <cambium/levelset/geometry/band_geometry.hpp>
 
@@ -48,15 +46,6 @@ class JumpPressure {
       return -dot(sides_.gradient_inside.block(b)[i], geometry_->normal.block(b)[i]);
     });
   }
-  /// What a drop of the pressure alone adds to the speed: f = 0.
-  void respond(const Values& drop, Values& speed) {
-    if (!pressure_) {
-      pressure_.emplace(solver_.lattice());
-      source_.emplace(solver_.lattice());
-    }
-    source_->fill(0.0);
-    solve(*source_, drop, 0.0, *pressure_, speed);
-  }
   /// Legs of stencils that two parts of the interface cross: it is about to touch itself there.
   std::size_t unresolved() const { return jump_.unresolved(); }
 
@@ -76,7 +65,6 @@ class JumpPressure {
   InterfaceSides<D> sides_;
   Values drop_;
   const BandGeometry<double, D>* geometry_ = nullptr;
-  std::optional<Field<double, D>> pressure_, source_;
 };
 
 }  // namespace cambium::detail

@@ -13,7 +13,8 @@ namespace cambium {
 /// depend on the box. Takes a periodic lattice.
 struct Periodic {
   using Kind = tumour_kind::Outside;
-  static constexpr bool reaches_outside = true;
+  /// Speed that a drop of the pressure with short waves causes, over their wave number.
+  static constexpr double mobility = 0.5;
 
   template <int D, class K>
   class Method : public detail::JumpPressure<D, PeriodicPoisson<D, SecondOrder, double, OpenMP>, K> {

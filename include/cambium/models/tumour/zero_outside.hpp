@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -11,34 +10,13 @@
 #include <cambium/interface/dirichlet.hpp>
 #include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/geometry/band_geometry.hpp>
-#include <cambium/levelset/jet.hpp>
 #include <cambium/models/tumour/policy.hpp>
 #include <cambium/models/tumour/sides.hpp>
+#include <cambium/models/tumour/value_at.hpp>
 
 namespace cambium {
 
 namespace detail {
-
-/// Value of a field of a band at a point, interpolated by M4'.
-template <int D>
-double value_at(const Field<double, D, Sparse>& field, const NarrowBand<double, D>& band, const Vec<D>& x) {
-  constexpr std::ptrdiff_t support = 4;
-  std::array<double, static_cast<std::size_t>(D == 2 ? 16 : 64) + 16> nodes{};
-  Index<D> first, stride;
-  Vec<D> u;
-  for (int d = 0; d < D; ++d) {
-    const double place = (x[d] - band.lattice().box().lo[d]) / band.spacing();
-    first[d] = static_cast<std::ptrdiff_t>(std::floor(place)) - support / 2 + 1;
-    u[d] = place - static_cast<double>(first[d]);
-    stride[d] = d == 0 ? 1 : stride[d - 1] * support;
-  }
-  for (std::ptrdiff_t k = 0; k < (D == 2 ? 16 : 64); ++k) {
-    Index<D> node = first;
-    for (int d = 0; d < D; ++d) node[d] += k / stride[d] % support;
-    nodes[static_cast<std::size_t>(k)] = field(band.inside(node));
-  }
-  return Interpolant<M4Prime, double, D>::value(nodes.data(), stride, u);
-}
 
 /// Pressure inside alone, p given on the interface.
 template <int D, class K>
@@ -74,6 +52,9 @@ class InsidePressure {
     }
     for_each(execution_, p.size(), [&](std::size_t i) { p[i] = grown_[i] + dropped_[i]; });
   }
+  std::size_t unresolved() const { return 0; }
+
+ private:
   /// What a drop of the pressure alone adds to the speed: Lap p = 0. Its slope is that of differences, of second order:
   /// where the drop varies from node to node, as noise does, the cubic polynomials across the interface would have
   /// slopes of the wrong sign, and the noise grow.
@@ -83,9 +64,6 @@ class InsidePressure {
     find_speed(dropped_, SlopeStencil::differences, speed);
     set_outside(dropped_, 0.0);
   }
-  std::size_t unresolved() const { return 0; }
-
- private:
   void set_outside(Field<double, D>& p, double value) const {
     for_each_side(*band_, execution_, [&](std::size_t i, bool inside) {
       if (!inside) p[i] = value;
@@ -114,7 +92,8 @@ class InsidePressure {
 /// p = 0 outside: there is nothing that the tumour has to push away.
 struct ZeroOutside {
   using Kind = tumour_kind::Outside;
-  static constexpr bool reaches_outside = false;
+  /// Speed that a drop of the pressure with short waves causes, over their wave number.
+  static constexpr double mobility = 1.0;
 
   template <int D, class K>
   using Method = detail::InsidePressure<D, K>;
