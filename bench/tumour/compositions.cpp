@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+#include <cambium/levelset/reinit/fast_marching.hpp>
+#include <cambium/levelset/shapes/ball.hpp>
+#include <cambium/levelset/surface.hpp>
+
+#include "tumour/grow.hpp"
+#include "tumour/verification.hpp"
+#include "tumour/wave.hpp"
+
+namespace bench {
+namespace {
+
+using nlohmann::json;
+using namespace cambium;
+
+/// A disc, for R(0.1), and the waves r = 2 +- 0.1 cos(4 theta), for the share of their height that is left at t = 0.1:
+/// exp of the integral of sigma(R(t)) by linear stability. What is odd in the height is averaged away.
+template <class T>
+json run(const char* name, const char* kind, std::ptrdiff_t cells, const TumourOptions& options) {
+  const auto height = [](const T& tumour, const Wave<2>& wave) {
+    WaveFit fit;
+    const auto surface = extract_surface(tumour.level_set().band());
+    for (const auto& segment : surface.elements) {
+      const Vec<2> a = surface.vertices[segment[0]], b = surface.vertices[segment[1]];
+      const Vec<2> x = (a + b) * 0.5;
+      fit.add(wave(x), norm(x - wave.centre()), norm(b - a));
+    }
+    return fit.part();
+  };
+  const Wave<2> wave{4};
+  double kept = 0.0, seconds = 0.0;
+  int steps = 0, products = 0;
+  std::string stopped;
+  for (const double delta : {0.1, -0.1}) {
+    T tumour(
+        tumour_box<2>(cells, 6.0), [&](const Vec<2>& x) { return wave.shape(x, delta); },
+        {.parameters = {.tension = 1.0}}, OpenMP{options.threads});
+    const double first = height(tumour, wave);
+    const json result = grow(tumour, 0.1);
+    kept += 0.5 * height(tumour, wave) / first;
+    seconds += 0.5 * result["seconds"].template get<double>();
+    steps = result["steps"].template get<int>();
+    products = result["iterations"].template get<int>();
+    if (result.contains("stopped")) stopped = result["stopped"].template get<std::string>();
+  }
+  T disc(tumour_box<2>(cells, 6.0), Ball<2>(wave.centre(), 2.0), {.parameters = {.tension = 1.0}},
+         OpenMP{options.threads});
+  const json result = grow(disc, 0.1);
+  const double radius = std::sqrt(result["volume"].template get<double>() / std::numbers::pi) / 2.35800262640 - 1.0;
+  const double wave_error = kept / 0.89699243930 - 1.0;
+  std::printf("composition %-10s %-24s %4td cells  R off by %9.2e  wave by %9.2e  %4d steps %5d products %7.2f s %s\n",
+              kind, name, cells, radius, wave_error, steps, products, seconds, stopped.c_str());
+  std::fflush(stdout);
+  return {{"scene", "composition"}, {"kind", kind},           {"name", name},
+          {"cells", cells},         {"radius_error", radius}, {"wave_error", wave_error},
+          {"steps", steps},         {"products", products},   {"seconds", seconds},
+          {"stopped", stopped}};
+}
+
+}  // namespace
+
+json compare_compositions(const TumourOptions& options) {
+  json runs = json::array();
+  for (const auto n : options.cells_or({32, 48, 64, 96, 128})) {
+    runs.push_back(run<Tumour<2, SemiImplicit>>("SemiImplicit", "stepper", n, options));
+    if (n <= 64) {
+      runs.push_back(run<Tumour<2>>("AdamsBashforth", "stepper", n, options));
+      runs.push_back(run<Tumour<2, Heun>>("Heun", "stepper", n, options));
+    }
+    runs.push_back(
+        run<Tumour<2, SemiImplicit, ReinitialiseBy<FastMarching<>>>>("FastMarching", "reinitialisation", n, options));
+    runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<1>>>("GaussianFilter<1>", "filter", n, options));
+    runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<2>>>("GaussianFilter<2>", "filter", n, options));
+  }
+  return runs;
+}
+
+}  // namespace bench
