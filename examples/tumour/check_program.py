@@ -8,11 +8,14 @@ all of its files.
 
 import csv
 import json
+import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
+import zlib
 from pathlib import Path
 
 program, folder = sys.argv[1], Path(sys.argv[2])
@@ -106,9 +109,77 @@ def check_signal():
     assert "signal" in report["ended"] and report["frames"][-1]["t"] == report["t"], report
 
 
+def report_of(out):
+    """The report without what the clock says, and where."""
+    report = json.loads((out / "report.json").read_text())
+    return {name: value for name, value in report.items() if name not in ("seconds", "parts", "options")}
+
+
+def check_same(out, other):
+    """Two runs left the same, to the last bit."""
+    assert report_of(out) == report_of(other)
+    names = [f"{kind}_t{frame['name']}.{ending}" for frame in report_of(out)["frames"]
+             for kind, ending in (("interface", "csv"), ("fields", "vti"))]
+    for name in ["series.csv", *names]:
+        assert (out / name).read_bytes() == (other / name).read_bytes(), name
+
+
+def check_resume():
+    """Runs that are killed at any moment go on as if nothing had been; damaged checkpoints are refused."""
+    for outside in "free-space", "zero":
+        options = [*small, "--shape", "ellipsoid:0.1,1.9", "--outside", outside, "--N", "0.3", "--at", "0.1,0.2,0.3"]
+        whole, out = folder / f"whole-{outside}", folder / f"killed-{outside}"
+        run(*options, "--out", whole)
+        command = [program, *options, "--checkpoint", "0", "--out", str(out)]
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        while not (out / "checkpoint.h5").exists():
+            time.sleep(0.01)
+        for wait in random.uniform(0.05, 0.3), random.uniform(0.05, 0.3):
+            time.sleep(wait)
+            child.kill()
+            child.wait()
+            assert not json.loads((out / "report.json").read_text()).get("ended"), "it was to be killed before"
+            command = [program, "--resume", str(out), "--no-page"]
+            child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        assert child.wait(timeout=60) == 0
+        check_same(out, whole)
+    before = report_of(whole)
+    run("--resume", whole, "--at", "0.3,0.32", "--no-page")
+    assert [frame["t"] for frame in report_of(whole)["frames"]] == [0, 0.1, 0.2, 0.3, 0.32]
+    assert report_of(whole)["frames"][:-1] == before["frames"]
+
+
+def check_checkpoint():
+    out = folder / "killed-zero"
+    file, good = out / "checkpoint.h5", (out / "checkpoint.h5").read_bytes()
+    for content in good[:-5000], b"", b"x" * 9999:
+        (folder / "bad.h5").write_bytes(content)
+        assert "cut off" in run("--resume", folder / "bad.h5", good=False), len(content)
+    at = good.index(b"version")
+    at = good.rindex(struct.pack("<q", 1), at, at + 120)
+    newer = good[:at] + struct.pack("<q", 2) + good[at + 8:-10]
+    (folder / "newer.h5").write_bytes(newer + b"crc32:" + struct.pack("<I", zlib.crc32(newer)))
+    assert "is of version 2" in run("--resume", folder / "newer.h5", good=False)
+    for place in random.sample(range(len(good)), 20):
+        flipped = bytearray(good)
+        flipped[place] ^= 1 << random.randrange(8)
+        (folder / "flipped.h5").write_bytes(flipped)
+        done = subprocess.run([program, "--resume", str(folder / "flipped.h5"), "--dry-run"], capture_output=True)
+        assert done.returncode == 1 and b"damaged" in done.stderr, done
+    assert "other options" in run("--resume", out, "--gamma", 2, good=False)
+    assert "no checkpoint" in run("--resume", folder / "nowhere", good=False)
+    full = f"ulimit -f 8; exec {program} --resume {out} --at 0.3,0.35 --no-page"
+    done = subprocess.run(["bash", "-c", full], capture_output=True, text=True)
+    assert done.returncode == 1 and "File too large" in done.stderr, done
+    assert file.read_bytes() == good
+    assert "cannot" in run(*small, "--out", "/proc/nothing", good=False)
+
+
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 check_options()
 check_ends()
 check_image()
+check_resume()
+check_checkpoint()
 check_signal()

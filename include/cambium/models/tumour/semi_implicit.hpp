@@ -46,6 +46,10 @@ struct SemiImplicit {
       return iterations;
     }
     void accept() { std::swap(last_, next_); }
+    template <class Self, class Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("rate.last", self.last_);
+    }
 
    private:
     using Vector = detail::ShortGMRES::Vector;

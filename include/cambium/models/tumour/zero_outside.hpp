@@ -84,6 +84,12 @@ class InsidePressure {
     set_outside(dropped_, 0.0);
   }
   std::size_t unresolved() const { return 0; }
+  /// The solutions are the first guesses of the next.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("pressure.grown", self.grown_);
+    archive("pressure.dropped", self.dropped_);
+  }
 
  private:
   void set_outside(Field<double, D>& p, double value) const {
