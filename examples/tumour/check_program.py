@@ -7,6 +7,7 @@ all of its files.
 """
 
 import csv
+import gzip
 import json
 import random
 import shutil
@@ -88,11 +89,58 @@ def check_image():
                                 ("huge", whole.replace(b"sizes: ", b"sizes: 9"), "bytes")]:
         (folder / f"{name}.nrrd").write_bytes(content)
         assert word in run("--dim", 3, "--shape", folder / f"{name}.nrrd", "--dry-run", good=False)
+    head, voxels = whole.replace(b"raw", b"gzip").split(b"\n\n", 1)
+    packed = folder / "packed.nrrd"
+    packed.write_bytes(head + b"\n\n" + gzip.compress(voxels)[:-20])
+    assert "gzip" in run("--dim", 3, "--shape", packed, "--dry-run", good=False)
+    packed.write_bytes(head + b"\n\n" + gzip.compress(voxels))
     assert "it has: 0 1" in run("--dim", 3, "--shape", f"{image},2,1", "--dry-run", good=False)
     out = folder / "image"
-    run("--dim", 3, "--n", 24, "--box", 6, "--shape", f"{image},1,1", "--at", 1e-4, "--no-page", "--out", out)
+    run("--dim", 3, "--n", 24, "--box", 6, "--shape", f"{packed},1,1", "--at", 1e-4, "--no-page", "--out", out)
     volume = float(rows(out)[0]["volume"])
     assert abs(volume / (4 / 3 * 3.14159265 * 1.5**3) - 1) < 0.01, volume
+
+
+def volume_of(obj):
+    """Inside the triangles of an OBJ file."""
+    lines = [line.split() for line in obj.read_text().splitlines()]
+    points = [[float(x) for x in line[1:]] for line in lines if line[0] == "v"]
+    total = 0
+    for line in lines:
+        if line[0] == "f":
+            (a, b, c), (d, e, f), (g, h, i) = (points[int(k) - 1] for k in line[1:])
+            total += (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6
+    return total
+
+
+def check_mesh():
+    """A mesh of a ball, scaled, has the volume of its facets; what is no closed mesh is named."""
+    ball = ["--dim", 3, "--n", 24, "--box", 6]
+    for ending in "stl", "ply", "obj":
+        run(*ball, "--shape", "ellipsoid:0,1.5", "--make-image", folder / f"ball.{ending}")
+    out = folder / "mesh"
+    run(*ball, "--shape", f"{folder / 'ball.ply'},0.9", "--at", 1e-4, "--no-page", "--out", out)
+    volume = float(rows(out)[0]["volume"])
+    assert abs(volume / (4 / 3 * 3.14159265 * 1.35**3) - 1) < 0.02, volume  # 1.1% here, of the facets
+    text = (folder / "ball.obj").read_text().splitlines()
+    faces = [line.split()[1:] for line in text if line.startswith("f")]
+    points = [line.split()[1:] for line in text if line.startswith("v")]
+    fine = folder / "fine.obj"
+    run("--dim", 3, "--n", 48, "--box", 6, "--shape", "ellipsoid:0,1.5", "--make-image", fine)
+    errors = [volume_of(file) / (4 / 3 * 3.14159265 * 1.5**3) - 1 for file in (folder / "ball.obj", fine)]
+    assert abs(errors[1]) < 0.3 * abs(errors[0]) < 0.3 * 0.02, errors  # of second order: a quarter
+    solid = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {' '.join(points[int(k) - 1])}\n" for k in f) +
+                    "endloop\nendfacet\n" for f in faces)
+    for name, content, word in [
+            ("good.stl", f"solid ball\n{solid}endsolid ball\n", ""), ("cut.stl", f"solid ball\n{solid}", "endsolid"),
+            ("open.obj", "\n".join(text[:-1]), "not closed"), ("far.obj", "v 0 0 0\nf 1 2 3\n", "vertex 1 of 1"),
+            ("moon.ply", "ply\nformat cheese 1.0\nend_header\n", "cheese"), ("none.obj", "v 0 0 0\n", "no triangle"),
+            ("cut.ply", (folder / "ball.ply").read_bytes()[:-7], "cut off"), ("short.stl", b"x" * 134, "no STL")]:
+        (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+        said = run("--dim", 3, "--shape", folder / name, "--dry-run", good=not word)
+        assert word in said, (name, said)
+    for name in "ball.stl", "ball.ply", "ball.obj":
+        run("--dim", 3, "--shape", folder / name, "--dry-run")
 
 
 def check_signal():
@@ -180,6 +228,7 @@ folder.mkdir(parents=True)
 check_options()
 check_ends()
 check_image()
+check_mesh()
 check_resume()
 check_checkpoint()
 check_signal()

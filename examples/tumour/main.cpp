@@ -14,6 +14,7 @@
 
 #include "files.hpp"
 #include "label_image.hpp"
+#include "mesh_file.hpp"
 #include "options.hpp"
 #include "page.hpp"
 #include "run.hpp"
@@ -58,7 +59,12 @@ int main(int argc, char** argv) {
     if (options.list) return list();
     if (options.dry_run) return std::fputs(configuration.c_str(), stdout) < 0 ? 1 : 0;
     if (!options.make_image.empty()) {
-      write_nrrd(options.make_image, image_of(shape_of<3>(options.shape), 0.5 * options.box));
+      const auto shape = shape_of<3>(options.shape);
+      if (is_mesh(options.make_image)) {
+        write_mesh(options.make_image, mesh_of(shape, options.box, options.cells));
+      } else {
+        write_nrrd(options.make_image, image_of(shape, 0.5 * options.box));
+      }
       return 0;
     }
     return grow(options, configuration, saved ? &*saved : nullptr);
