@@ -134,7 +134,7 @@ class SnapshotReader {
     throw SnapshotError(detail::message("the saved state's '", name, "' ", why));
   }
   template <class Map>
-  static const auto& entry(const Map& map, const std::string& name) {
+  static const typename Map::mapped_type& entry(const Map& map, const std::string& name) {
     const auto found = map.find(name);
     if (found == map.end()) {
       refuse(name, "is missing: it is that of other policies or parameters, which have to be the same");
@@ -142,15 +142,17 @@ class SnapshotReader {
     return found->second;
   }
   template <class T>
-  const auto& array(const std::string& name, std::size_t count) {
-    const auto& found = [&]() -> const auto& {
+  const std::vector<std::conditional_t<std::is_floating_point_v<T>, double, std::int64_t>>& array(
+      const std::string& name, std::size_t count) {
+    const auto& map = [&]() -> const auto& {
       if constexpr (std::is_floating_point_v<T>) {
-        return entry(snapshot_.reals, name);
+        return snapshot_.reals;
       } else {
-        return entry(snapshot_.whole, name);
+        return snapshot_.whole;
       }
     }
     ();
+    const auto& found = entry(map, name);
     if (found.size() != count) {
       refuse(name, detail::message("has ", found.size(), " values where ", count, " are needed: it is not of this"));
     }
