@@ -53,6 +53,13 @@ struct Diffusing {
       solver_->continue_beyond(last_, reach);
       last_step_ = elapsed_;
     }
+    /// What the next solve() starts from, see SnapshotWriter.
+    template <class Self, class Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("nutrient.last", self.last_);
+      archive("nutrient.before", self.before_);
+      archive("nutrient.step", self.last_step_);
+    }
 
    private:
     static constexpr std::ptrdiff_t reach = 3;

@@ -28,6 +28,12 @@ struct TumourTimes {
 
 namespace detail {
 
+/// Saves or restores the state of a policy's method that has one.
+template <class Part, class Archive>
+void visit_part(Part& part, Archive& archive) {
+  if constexpr (requires { Part::visit(part, archive); }) Part::visit(part, archive);
+}
+
 /// Adds what a scope takes to a number of seconds.
 class Stopwatch {
  public:
@@ -94,6 +100,28 @@ class TumourGrowth {
     filter_(band, speed_, execution_);
   }
   void accept() { nutrient_.accept(c_); }
+
+  /// Saves or restores what evaluate() found and what it starts from, see SnapshotWriter.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("nutrient", self.c_);
+    archive("pressure", self.p_);
+    archive("speed", self.speed_);
+    visit_part(self.nutrient_, archive);
+    visit_part(self.outside_, archive);
+    archive("seconds.geometry", self.times_.geometry);
+    archive("seconds.nutrient", self.times_.nutrient);
+    archive("seconds.pressure", self.times_.pressure);
+    archive("seconds.implicit", self.times_.implicit);
+    archive("seconds.motion", self.times_.motion);
+  }
+  /// After restoring: takes the interface that it was evaluated at.
+  template <class L>
+  void attach(const L& level_set) {
+    require_same_blocks(speed_, level_set.band(), "the saved speed");
+    find_geometry(level_set);
+    outside_.attach(level_set.band(), *points_, geometry_);
+  }
 
   /// gamma times the speed that a drop of the pressure with short waves causes, over their wave number.
   double tension_mobility() const { return Outside::mobility * parameters_.tension; }

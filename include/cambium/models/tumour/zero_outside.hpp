@@ -52,6 +52,12 @@ class InsidePressure {
     for_each(execution_, p.size(), [&](std::size_t i) { p[i] = grown_[i] + dropped_[i]; });
   }
   std::size_t unresolved() const { return 0; }
+  /// The solutions are the first guesses of the next.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("pressure.grown", self.grown_);
+    archive("pressure.dropped", self.dropped_);
+  }
 
  private:
   /// What a drop of the pressure alone adds to the speed: Lap p = 0. Its slope is that of differences, of second order:
