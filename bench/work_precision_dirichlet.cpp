@@ -14,28 +14,17 @@
 
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/multigrid/chebyshev.hpp>
-#include <cambium/poisson/periodic_transform.hpp>
 
 #include "dirichlet/growth.hpp"
 #include "dirichlet/peers.hpp"
 #include "dirichlet/shifts.hpp"
 #include "support/command.hpp"
+#include "support/pair.hpp"
 
 using namespace cambium;
 
 namespace bench {
 namespace {
-
-double pair_seconds(std::ptrdiff_t cells) {
-  const auto lattice = Lattice<3>::periodic_box(Box<3>::cube(), cells);
-  const PeriodicTransform<3> transform(lattice, Planning::measure);
-  AlignedVector<double> x(lattice.size(), 1.0);
-  AlignedVector<PeriodicTransform<3>::Complex> z(transform.size());
-  return best_of(7, [&] {
-    transform.forward(x.data(), z.data());
-    transform.backward(z.data(), x.data());
-  });
-}
 
 using BallScene = Scene<3, Ball<3>>;
 

@@ -31,6 +31,7 @@ std::vector<Named> verifications() {
         {"--relaxation", "surface tension alone, in space", bench::verify_relaxation},
         {"--box-size", "one tumour in boxes of 24 and 48", bench::verify_box},
         {"--compositions", "error of a radius and a rate against seconds", bench::compare_compositions},
+        {"--cost", "time of a step in space and memory", bench::measure_cost},
 #endif
   };
 }

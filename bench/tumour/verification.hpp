@@ -40,5 +40,7 @@ nlohmann::json verify_relaxation(const TumourOptions& options);
 nlohmann::json verify_box(const TumourOptions& options);
 /// Error against time of the compositions.
 nlohmann::json compare_compositions(const TumourOptions& options);
+/// What a step in space costs, part by part, in pairs of transforms of the doubled box, and the memory of a tumour.
+nlohmann::json measure_cost(const TumourOptions& options);
 
 }  // namespace bench
