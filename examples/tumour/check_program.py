@@ -7,12 +7,16 @@ all of its files.
 """
 
 import csv
+import gzip
 import json
+import random
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import time
+import zlib
 from pathlib import Path
 
 program, folder = sys.argv[1], Path(sys.argv[2])
@@ -85,11 +89,58 @@ def check_image():
                                 ("huge", whole.replace(b"sizes: ", b"sizes: 9"), "bytes")]:
         (folder / f"{name}.nrrd").write_bytes(content)
         assert word in run("--dim", 3, "--shape", folder / f"{name}.nrrd", "--dry-run", good=False)
+    head, voxels = whole.replace(b"raw", b"gzip").split(b"\n\n", 1)
+    packed = folder / "packed.nrrd"
+    packed.write_bytes(head + b"\n\n" + gzip.compress(voxels)[:-20])
+    assert "gzip" in run("--dim", 3, "--shape", packed, "--dry-run", good=False)
+    packed.write_bytes(head + b"\n\n" + gzip.compress(voxels))
     assert "it has: 0 1" in run("--dim", 3, "--shape", f"{image},2,1", "--dry-run", good=False)
     out = folder / "image"
-    run("--dim", 3, "--n", 24, "--box", 6, "--shape", f"{image},1,1", "--at", 1e-4, "--no-page", "--out", out)
+    run("--dim", 3, "--n", 24, "--box", 6, "--shape", f"{packed},1,1", "--at", 1e-4, "--no-page", "--out", out)
     volume = float(rows(out)[0]["volume"])
     assert abs(volume / (4 / 3 * 3.14159265 * 1.5**3) - 1) < 0.01, volume
+
+
+def volume_of(obj):
+    """Inside the triangles of an OBJ file."""
+    lines = [line.split() for line in obj.read_text().splitlines()]
+    points = [[float(x) for x in line[1:]] for line in lines if line[0] == "v"]
+    total = 0
+    for line in lines:
+        if line[0] == "f":
+            (a, b, c), (d, e, f), (g, h, i) = (points[int(k) - 1] for k in line[1:])
+            total += (a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)) / 6
+    return total
+
+
+def check_mesh():
+    """A mesh of a ball, scaled, has the volume of its facets; what is no closed mesh is named."""
+    ball = ["--dim", 3, "--n", 24, "--box", 6]
+    for ending in "stl", "ply", "obj":
+        run(*ball, "--shape", "ellipsoid:0,1.5", "--make-image", folder / f"ball.{ending}")
+    out = folder / "mesh"
+    run(*ball, "--shape", f"{folder / 'ball.ply'},0.9", "--at", 1e-4, "--no-page", "--out", out)
+    volume = float(rows(out)[0]["volume"])
+    assert abs(volume / (4 / 3 * 3.14159265 * 1.35**3) - 1) < 0.02, volume  # 1.1% here, of the facets
+    text = (folder / "ball.obj").read_text().splitlines()
+    faces = [line.split()[1:] for line in text if line.startswith("f")]
+    points = [line.split()[1:] for line in text if line.startswith("v")]
+    fine = folder / "fine.obj"
+    run("--dim", 3, "--n", 48, "--box", 6, "--shape", "ellipsoid:0,1.5", "--make-image", fine)
+    errors = [volume_of(file) / (4 / 3 * 3.14159265 * 1.5**3) - 1 for file in (folder / "ball.obj", fine)]
+    assert abs(errors[1]) < 0.3 * abs(errors[0]) < 0.3 * 0.02, errors  # of second order: a quarter
+    solid = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {' '.join(points[int(k) - 1])}\n" for k in f) +
+                    "endloop\nendfacet\n" for f in faces)
+    for name, content, word in [
+            ("good.stl", f"solid ball\n{solid}endsolid ball\n", ""), ("cut.stl", f"solid ball\n{solid}", "endsolid"),
+            ("open.obj", "\n".join(text[:-1]), "not closed"), ("far.obj", "v 0 0 0\nf 1 2 3\n", "vertex 1 of 1"),
+            ("moon.ply", "ply\nformat cheese 1.0\nend_header\n", "cheese"), ("none.obj", "v 0 0 0\n", "no triangle"),
+            ("cut.ply", (folder / "ball.ply").read_bytes()[:-7], "cut off"), ("short.stl", b"x" * 134, "no STL")]:
+        (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+        said = run("--dim", 3, "--shape", folder / name, "--dry-run", good=not word)
+        assert word in said, (name, said)
+    for name in "ball.stl", "ball.ply", "ball.obj":
+        run("--dim", 3, "--shape", folder / name, "--dry-run")
 
 
 def check_signal():
@@ -106,9 +157,78 @@ def check_signal():
     assert "signal" in report["ended"] and report["frames"][-1]["t"] == report["t"], report
 
 
+def report_of(out):
+    """The report without what the clock says, and where."""
+    report = json.loads((out / "report.json").read_text())
+    return {name: value for name, value in report.items() if name not in ("seconds", "parts", "options")}
+
+
+def check_same(out, other):
+    """Two runs left the same, to the last bit."""
+    assert report_of(out) == report_of(other)
+    names = [f"{kind}_t{frame['name']}.{ending}" for frame in report_of(out)["frames"]
+             for kind, ending in (("interface", "csv"), ("fields", "vti"))]
+    for name in ["series.csv", *names]:
+        assert (out / name).read_bytes() == (other / name).read_bytes(), name
+
+
+def check_resume():
+    """Runs that are killed at any moment go on as if nothing had been; damaged checkpoints are refused."""
+    for outside in "free-space", "zero":
+        options = [*small, "--shape", "ellipsoid:0.1,1.9", "--outside", outside, "--N", "0.3", "--at", "0.1,0.2,0.3"]
+        whole, out = folder / f"whole-{outside}", folder / f"killed-{outside}"
+        run(*options, "--out", whole)
+        command = [program, *options, "--checkpoint", "0", "--out", str(out)]
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        while not (out / "checkpoint.h5").exists():
+            time.sleep(0.01)
+        for wait in random.uniform(0.05, 0.3), random.uniform(0.05, 0.3):
+            time.sleep(wait)
+            child.kill()
+            child.wait()
+            assert not json.loads((out / "report.json").read_text()).get("ended"), "it was to be killed before"
+            command = [program, "--resume", str(out), "--no-page"]
+            child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        assert child.wait(timeout=60) == 0
+        check_same(out, whole)
+    before = report_of(whole)
+    run("--resume", whole, "--at", "0.3,0.32", "--no-page")
+    assert [frame["t"] for frame in report_of(whole)["frames"]] == [0, 0.1, 0.2, 0.3, 0.32]
+    assert report_of(whole)["frames"][:-1] == before["frames"]
+
+
+def check_checkpoint():
+    out = folder / "killed-zero"
+    file, good = out / "checkpoint.h5", (out / "checkpoint.h5").read_bytes()
+    for content in good[:-5000], b"", b"x" * 9999:
+        (folder / "bad.h5").write_bytes(content)
+        assert "cut off" in run("--resume", folder / "bad.h5", good=False), len(content)
+    at = good.index(b"version")
+    at = good.rindex(struct.pack("<q", 1), at, at + 120)
+    newer = good[:at] + struct.pack("<q", 2) + good[at + 8:-10]
+    (folder / "newer.h5").write_bytes(newer + b"crc32:" + struct.pack("<I", zlib.crc32(newer)))
+    assert "is of version 2" in run("--resume", folder / "newer.h5", good=False)
+    for place in random.sample(range(len(good)), 20):
+        flipped = bytearray(good)
+        flipped[place] ^= 1 << random.randrange(8)
+        (folder / "flipped.h5").write_bytes(flipped)
+        done = subprocess.run([program, "--resume", str(folder / "flipped.h5"), "--dry-run"], capture_output=True)
+        assert done.returncode == 1 and b"damaged" in done.stderr, done
+    assert "other options" in run("--resume", out, "--gamma", 2, good=False)
+    assert "no checkpoint" in run("--resume", folder / "nowhere", good=False)
+    full = f"ulimit -f 8; exec {program} --resume {out} --at 0.3,0.35 --no-page"
+    done = subprocess.run(["bash", "-c", full], capture_output=True, text=True)
+    assert done.returncode == 1 and "File too large" in done.stderr, done
+    assert file.read_bytes() == good
+    assert "cannot" in run(*small, "--out", "/proc/nothing", good=False)
+
+
 shutil.rmtree(folder, ignore_errors=True)
 folder.mkdir(parents=True)
 check_options()
 check_ends()
 check_image()
+check_mesh()
+check_resume()
+check_checkpoint()
 check_signal()

@@ -38,12 +38,23 @@ std::string vtk_file(const char* type) {
          "\" version=\"1.0\" byte_order=\"LittleEndian\">\n";
 }
 
+/// The folder's entry of a file that was moved into it is on the disk, too.
+void sync_folder(const std::filesystem::path& folder) {
+  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
+}
+
 }  // namespace
 
 void write_whole(const std::filesystem::path& path, const std::string& text) {
   const std::string temporary = path.string() + ".part";
   const auto fail = [&](const char* what) {
-    throw cambium::FileError(cambium::detail::message("cannot ", what, " ", temporary, ": ", std::strerror(errno)));
+    const int error = errno;
+    ::unlink(temporary.c_str());
+    throw cambium::FileError(cambium::detail::message("cannot ", what, " ", temporary, ": ", std::strerror(error), "; ",
+                                                      path.string(), " is as it was before"));
   };
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file < 0) fail("create");
@@ -54,9 +65,12 @@ void write_whole(const std::filesystem::path& path, const std::string& text) {
     if (count > 0) done += static_cast<std::size_t>(count);
   }
   good = good && ::fsync(file) == 0;
-  good = ::close(file) == 0 && good;
-  if (!good) fail("write");
+  const int error = errno;
+  const bool closed = ::close(file) == 0;
+  if (!good) errno = error;
+  if (!good || !closed) fail("write");
   if (std::rename(temporary.c_str(), path.c_str()) != 0) fail("move to its place");
+  sync_folder(path.parent_path());
 }
 
 void write_curves(const std::filesystem::path& path, const cambium::Surface<2>& surface,

@@ -14,7 +14,7 @@ namespace tumour {
 namespace detail {
 
 template <class T>
-T make_model(const Options& options) {
+T make_model(const Options& options, const Checkpoint* saved) {
   constexpr int D = T::dimension;
   using cambium::Lattice;
   using cambium::Vec;
@@ -24,6 +24,7 @@ T make_model(const Options& options) {
   typename T::Params params;
   params.parameters = options.parameters;
   params.courant = options.courant;
+  if (saved) return T::restored(lattice, saved->state, params, {options.threads});
   return T(lattice, shape_of<D>(options.shape), params, {options.threads});
 }
 
@@ -31,24 +32,34 @@ T make_model(const Options& options) {
 template <class T>
 class Growing {
  public:
-  Growing(const Options& options, const std::string& configuration, const StopRequests& stop)
-      : tumour_(make_model<T>(options)),
-        record_(options, configuration),
-        progress_(options.at.back()),
+  Growing(const Options& options, const std::string& configuration, const StopRequests& stop, const Checkpoint* saved)
+      : tumour_(make_model<T>(options, saved)),
+        record_(options, configuration, saved),
+        own_(saved ? own_state(saved->state) : Own{}),
+        progress_(options.at.back(), tumour_.time(), own_.seconds),
+        checkpoints_(options.checkpoint),
         stop_(stop),
         most_steps_(options.smoke ? 2 : -1) {
-    record_.add(series_.take(tumour_, {}), 0);
-    show();
+    if (saved) {
+      series_.resume(tumour_, own_.expected);
+      std::printf("goes on at t = %.6g after %d steps\n", tumour_.time(), own_.steps);
+    } else {
+      record_.add(series_.take(tumour_, {}), 0);
+      show();
+    }
   }
 
   nlohmann::json operator()(const std::vector<double>& times) {
     std::string ended;
     try {
       for (const double time : times) {
+        if (tumour_.time() - time > 1e-12 * time) continue;  // was before what it goes on from
         ended = step_to(time);
-        if (shown_ != tumour_.time() && !tumour_.extinct()) show();
+        if (!ended.empty()) save();  // what goes on has no picture here
+        if (own_.shown != tumour_.time() && !tumour_.extinct()) show();
         if (!ended.empty()) break;
       }
+      if (ended.empty()) save();
     } catch (const cambium::Error& error) {
       finish(std::string("error: ") + error.what());
       throw;
@@ -58,57 +69,91 @@ class Growing {
   }
 
  private:
+  /// State of the program beside the tumour's.
+  struct Own {
+    int steps = 0;
+    double shown = -1.0;  ///< time of the last picture
+    double expected = 0.0;
+    double seconds = 0.0;
+
+    template <class Self, class Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("run.steps", self.steps);
+      archive("run.shown", self.shown);
+      archive("run.expected", self.expected);
+      archive("run.seconds", self.seconds);
+    }
+  };
+  static Own own_state(const cambium::Snapshot& state) {
+    Own own;
+    cambium::SnapshotReader reader(state);
+    Own::visit(own, reader);
+    return own;
+  }
+
   /// Empty, or why the run is over before.
   std::string step_to(double time) {
     while (time - tumour_.time() > 1e-12 * time) {
       if (stop_.arrived()) return "stopped by a signal";
-      if (steps_ == most_steps_) return "a few steps were asked for";
+      if (own_.steps == most_steps_) return "a few steps were asked for";
       // The last two steps before a picture are of about one length: no tiny ones.
       const double rest = time - tumour_.time();
       const double longest = tumour_.next_step(rest).dt;
       try {
         const cambium::TumourStep step = tumour_.step(longest < rest && 2.0 * longest > rest ? 0.5 * rest : rest);
-        ++steps_;
+        ++own_.steps;
         if (step.extinct) return "the tumour has died out";
-        record_.add(series_.take(tumour_, step), steps_);
+        record_.add(series_.take(tumour_, step), own_.steps);
       } catch (const cambium::TumourAtWallError& error) {
         return error.what();
       }
-      progress_.tell(steps_, tumour_.time(), series_.last().step.dt, series_.last().measures.volume);
+      if (checkpoints_.due()) save();
+      progress_.tell(own_.steps, tumour_.time(), series_.last().step.dt, series_.last().measures.volume);
     }
     return "";
   }
   void show() {
     const auto& row = series_.last();
     record_.picture(tumour_, row);
-    shown_ = tumour_.time();
+    own_.shown = tumour_.time();
     std::printf(
         "t = %-7.4g volume %.6g  area %.6g  parts %zu  interfaces %zu  necrotic %.4g  imbalance %.1e  (%d steps, "
         "%.1f s)\n",
         row.time, row.measures.volume, row.measures.area, row.measures.inside_components,
-        row.measures.interface_components, row.budget.necrotic, row.imbalance(), steps_, progress_.seconds());
+        row.measures.interface_components, row.budget.necrotic, row.imbalance(), own_.steps, progress_.seconds());
     std::fflush(stdout);
   }
+  void save() {
+    own_.expected = series_.last().expected;
+    Own now = own_;
+    now.seconds = progress_.seconds();
+    cambium::Snapshot state = tumour_.save();
+    cambium::SnapshotWriter writer(state);
+    Own::visit(now, writer);
+    record_.checkpoint(std::move(state));
+    checkpoints_.done();
+  }
   void finish(const std::string& ended) {
-    record_.finish(tumour_, ended, steps_, progress_.seconds());
-    std::printf("%s (t = %.6g, %d steps, %.1f s)\n", ended.c_str(), tumour_.time(), steps_, progress_.seconds());
+    record_.finish(tumour_, ended, own_.steps, progress_.seconds());
+    std::printf("%s (t = %.6g, %d steps, %.1f s)\n", ended.c_str(), tumour_.time(), own_.steps, progress_.seconds());
   }
 
   T tumour_;
   Record<T> record_;
   Series<T> series_;
+  Own own_;
   Progress progress_;
+  Checkpoints checkpoints_;
   const StopRequests& stop_;
-  int steps_ = 0;
   int most_steps_;
-  double shown_ = -1.0;
 };
 
 }  // namespace detail
 
 template <int D, class Outside>
-nlohmann::json run(const Options& options, const std::string& configuration, const StopRequests& stop) {
-  return detail::Growing<Model<D, Outside>>(options, configuration, stop)(options.at);
+nlohmann::json run(const Options& options, const std::string& configuration, const StopRequests& stop,
+                   const Checkpoint* saved) {
+  return detail::Growing<Model<D, Outside>>(options, configuration, stop, saved)(options.at);
 }
 
 }  // namespace tumour

@@ -21,8 +21,8 @@ struct LabelImage {
   std::vector<int> labels;
 };
 
-/// Reads a label image (NRRD, integers, encoding raw, with `space directions` and `space origin` or `spacings`).
-/// \throws cambium::FileError that says which line, or how many bytes, are not as they should be
+/// Reads a label image (NRRD, integers, encoding raw or gzip, with `space directions` and `space origin` or
+/// `spacings`). \throws cambium::FileError that says which line, or how many bytes, are not as they should be
 LabelImage read_nrrd(const std::filesystem::path& path);
 /// Writes one, of labels from 0 to 255. \throws cambium::FileError
 void write_nrrd(const std::filesystem::path& path, const LabelImage& image);

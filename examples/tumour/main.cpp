@@ -14,6 +14,7 @@
 
 #include "files.hpp"
 #include "label_image.hpp"
+#include "mesh_file.hpp"
 #include "options.hpp"
 #include "page.hpp"
 #include "run.hpp"
@@ -24,16 +25,17 @@ using namespace tumour;
 namespace {
 
 template <int D>
-nlohmann::json run_in(const Options& options, const std::string& configuration, const StopRequests& stop) {
-  if (options.outside == "zero") return run<D, cambium::ZeroOutside>(options, configuration, stop);
-  if (options.outside == "periodic") return run<D, cambium::Periodic>(options, configuration, stop);
-  return run<D, cambium::FreeSpace>(options, configuration, stop);
+nlohmann::json run_in(const Options& options, const std::string& configuration, const StopRequests& stop,
+                      const Checkpoint* saved) {
+  if (options.outside == "zero") return run<D, cambium::ZeroOutside>(options, configuration, stop, saved);
+  if (options.outside == "periodic") return run<D, cambium::Periodic>(options, configuration, stop, saved);
+  return run<D, cambium::FreeSpace>(options, configuration, stop, saved);
 }
 
-int grow(const Options& options, const std::string& configuration) {
+int grow(const Options& options, const std::string& configuration, const Checkpoint* saved) {
   const StopRequests stop;
-  const auto report =
-      options.dim == 2 ? run_in<2>(options, configuration, stop) : run_in<3>(options, configuration, stop);
+  const auto report = options.dim == 2 ? run_in<2>(options, configuration, stop, saved)
+                                       : run_in<3>(options, configuration, stop, saved);
   if (!options.json.empty()) write_whole(options.json, report.dump(2) + "\n");
   std::printf("the run is in %s\n", options.out.c_str());
   if (options.page && !draw_page(options.out)) {
@@ -52,14 +54,20 @@ int list() {
 int main(int argc, char** argv) {
   try {
     std::string configuration;
-    const Options options = read_options(argc, argv, configuration);
+    std::optional<Checkpoint> saved;
+    const Options options = read_options(argc, argv, configuration, saved);
     if (options.list) return list();
     if (options.dry_run) return std::fputs(configuration.c_str(), stdout) < 0 ? 1 : 0;
     if (!options.make_image.empty()) {
-      write_nrrd(options.make_image, image_of(shape_of<3>(options.shape), 0.5 * options.box));
+      const auto shape = shape_of<3>(options.shape);
+      if (is_mesh(options.make_image)) {
+        write_mesh(options.make_image, mesh_of(shape, options.box, options.cells));
+      } else {
+        write_nrrd(options.make_image, image_of(shape, 0.5 * options.box));
+      }
       return 0;
     }
-    return grow(options, configuration);
+    return grow(options, configuration, saved ? &*saved : nullptr);
   } catch (const CLI::Success&) {
     return 0;
   } catch (const CLI::Error& error) {

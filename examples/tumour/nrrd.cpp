@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The Cambium authors
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <utility>
+#include <zlib.h>
 
 #include <cambium/io/npy.hpp>
 
@@ -100,6 +103,29 @@ void find_place(const Header& header, LabelImage& image, const std::filesystem::
   if (!(std::abs(volume) > 1e-9 * norm(a[0]) * norm(a[1]) * norm(a[2]))) refuse(path, "has axes in one plane");
 }
 
+/// Inflates bytes of gzip piece by piece, up to one byte more than there should be.
+std::string unpacked(std::string bytes, std::size_t expected, const std::filesystem::path& path) {
+  constexpr int of_gzip = 16 + MAX_WBITS;
+  constexpr std::size_t piece = 1 << 16;
+  z_stream stream{};
+  if (inflateInit2(&stream, of_gzip) != Z_OK) refuse(path, "cannot be unpacked: no memory");
+  stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  std::string result;
+  int state = Z_OK;
+  while (state == Z_OK && result.size() <= expected) {
+    const std::size_t before = result.size();
+    result.resize(before + std::min(piece, expected + 1 - before));
+    stream.next_out = reinterpret_cast<Bytef*>(result.data() + before);
+    stream.avail_out = static_cast<uInt>(result.size() - before);
+    state = inflate(&stream, Z_NO_FLUSH);
+    result.resize(result.size() - stream.avail_out);
+  }
+  inflateEnd(&stream);
+  if (state != Z_STREAM_END && result.size() <= expected) refuse(path, "has bytes that are not all of a gzip stream");
+  return result;
+}
+
 }  // namespace
 
 LabelImage read_nrrd(const std::filesystem::path& path) {
@@ -108,8 +134,9 @@ LabelImage read_nrrd(const std::filesystem::path& path) {
   const Header header = read_header(in, path);
   numbers(entry(header, "dimension", path), 1, "dimension", path);
   if (entry(header, "dimension", path) != "3") refuse(path, "has dimension " + header.at("dimension") + ", not 3");
-  if (entry(header, "encoding", path) != "raw")
-    refuse(path, "has encoding " + header.at("encoding") + ": save it as raw");
+  const std::string encoding = entry(header, "encoding", path);
+  const bool packed = encoding == "gzip" || encoding == "gz";
+  if (!packed && encoding != "raw") refuse(path, "has encoding " + encoding + ": save it as raw or gzip");
   const Type type = type_of(entry(header, "type", path), path);
   if (type.bytes > 1 && entry(header, "endian", path) != "little") refuse(path, "is not of little endian");
   LabelImage image;
@@ -123,8 +150,9 @@ LabelImage read_nrrd(const std::filesystem::path& path) {
   }
   find_place(header, image, path);
   // No more memory than the file is long is taken before its length is known to be right.
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
   const auto count = static_cast<std::size_t>(product(image.size));
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (packed) bytes = unpacked(std::move(bytes), count * type.bytes, path);
   if (bytes.size() != count * type.bytes) {
     refuse(path, "has " + std::to_string(bytes.size()) + " bytes of voxels where its header says " +
                      std::to_string(count * type.bytes));

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <cambium/models/tumour/parameters.hpp>
+
+#include "checkpoint.hpp"
 
 namespace tumour {
 
@@ -27,14 +30,18 @@ struct Options {
   bool dry_run = false;
   bool list = false;
   bool smoke = false;
+  double checkpoint = 60.0;     ///< seconds on the wall between checkpoints
+  std::string resume = {};      ///< checkpoint to go on from
   std::string make_image = {};  ///< file for a label image of the shape
 
   friend bool operator==(const Options&, const Options&) = default;
 };
 
-/// Reads the command line: what it names counts before what the configuration file does, that before the scene.
+/// Reads the command line: what it names counts before what the configuration file does, that before the scene. With
+/// --resume, what a run was given that is gone on with counts instead of these two.
+/// \param saved  becomes what --resume names; it may differ in its times, folder, threads and checkpoints alone
 /// \param configuration  everything that the run was given, as a file that --config reads
-/// \throws CLI::ParseError, ValueError for what makes no sense
-Options read_options(int argc, const char* const* argv, std::string& configuration);
+/// \throws CLI::ParseError, ValueError for what makes no sense, CheckpointError
+Options read_options(int argc, const char* const* argv, std::string& configuration, std::optional<Checkpoint>& saved);
 
 }  // namespace tumour

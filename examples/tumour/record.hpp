@@ -10,6 +10,7 @@
 
 #include <cambium/io/npy.hpp>
 
+#include "checkpoint.hpp"
 #include "files.hpp"
 #include "interface_pressure.hpp"
 #include "options.hpp"
@@ -23,9 +24,16 @@ class Record {
  public:
   static constexpr int dimension = T::dimension;
 
-  Record(const Options& options, const std::string& configuration) : folder_(options.out) {
+  /// \param saved  what the run goes on from, or null
+  Record(const Options& options, const std::string& configuration, const Checkpoint* saved)
+      : folder_(options.out), configuration_(configuration) {
     std::filesystem::create_directories(folder_ / "pictures");
     write_whole(folder_ / "options.ini", configuration);
+    if (saved) {
+      series_ = saved->series;
+      report_ = nlohmann::json::parse(saved->report);
+      return;
+    }
     report_["options"] = configuration;
     report_["dim"] = dimension;
     report_["box"] = options.box;
@@ -82,6 +90,10 @@ class Record {
                         {"motion", times.motion}};
     save();
   }
+  /// Everything so far, to go on from. \throws cambium::FileError; the last checkpoint is there as it was
+  void checkpoint(cambium::Snapshot state) const {
+    write_checkpoint(folder_ / "checkpoint.h5", {configuration_, series_, report_.dump(), std::move(state)});
+  }
   void save() const {
     write_whole(folder_ / "series.csv", series_);
     write_whole(folder_ / "report.json", report_.dump(2) + "\n");
@@ -128,7 +140,7 @@ class Record {
   }
 
   std::filesystem::path folder_;
-  std::string series_;
+  std::string configuration_, series_;
   nlohmann::json report_;
 };
 

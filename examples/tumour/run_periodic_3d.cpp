@@ -4,6 +4,7 @@
 
 namespace tumour {
 
-template nlohmann::json run<3, cambium::Periodic>(const Options&, const std::string&, const StopRequests&);
+template nlohmann::json run<3, cambium::Periodic>(const Options&, const std::string&, const StopRequests&,
+                                                  const Checkpoint*);
 
 }  // namespace tumour

@@ -4,6 +4,7 @@
 
 namespace tumour {
 
-template nlohmann::json run<2, cambium::ZeroOutside>(const Options&, const std::string&, const StopRequests&);
+template nlohmann::json run<2, cambium::ZeroOutside>(const Options&, const std::string&, const StopRequests&,
+                                                     const Checkpoint*);
 
 }  // namespace tumour

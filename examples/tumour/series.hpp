@@ -64,6 +64,11 @@ class Series {
     return last_ = row;
   }
   const Row<dimension>& last() const { return last_; }
+  /// Goes on from a tumour as it was at the last row. \param expected  volume that it should have had
+  void resume(const T& tumour, double expected) {
+    take(tumour, {});
+    last_.expected = expected;
+  }
 
  private:
   bool any_ = false;

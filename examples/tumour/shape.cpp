@@ -12,6 +12,7 @@
 #include <cambium/levelset/shapes/amorphous.hpp>
 
 #include "label_image.hpp"
+#include "mesh_file.hpp"
 #include "numbers.hpp"
 
 namespace tumour {
@@ -65,25 +66,41 @@ Shape<D> pair(double r, double distance) {
 
 std::string shape_help() {
   return "one of ellipsoid:e,r | star:r0,a2,p2,a3,p3,... (plane) | amorphous:inner,outer,seed | pair:r,distance | "
-         "FILE.nrrd[,label,scale] (label image; 1,1 where nothing is said)";
+         "FILE.nrrd[,label,scale] (label image; 1,1 where nothing is said) | FILE.stl|ply|obj[,scale] (closed mesh)";
 }
 
 namespace {
 
-constexpr std::string_view image_ending = ".nrrd";
+constexpr std::string_view endings[] = {".nrrd", ".stl", ".ply", ".obj"};
 
-/// FILE.nrrd or FILE.nrrd,label,scale
+/// Where the ending of a file's name ends, npos if there is no file's name.
+std::size_t end_of_file_name(const std::string& text) {
+  for (const std::string_view ending : endings) {
+    const std::size_t at = text.rfind(ending);
+    if (at == std::string::npos) continue;
+    if (at + ending.size() == text.size() || text[at + ending.size()] == ',') return at + ending.size();
+  }
+  return std::string::npos;
+}
+
+/// FILE.nrrd or FILE.nrrd,label,scale; FILE.stl or FILE.stl,scale
 template <int D>
 Shape<D> shape_from_file(const std::string& text, std::size_t end) {
   if constexpr (D == 2) {
-    refuse(text, "images are shapes of space: --dim 3");
+    refuse(text, "images and meshes are shapes of space: --dim 3");
   } else {
-    std::vector<double> v{1.0, 1.0};
+    const std::string file = text.substr(0, end);
+    const bool image = file.ends_with(endings[0]);
+    std::vector<double> v(image ? 2 : 1, 1.0);
     if (end < text.size()) v = numbers("--shape", text.substr(end + 1));
+    if (!image) {
+      if (v.size() != 1 || !(v[0] > 0.0)) refuse(text, "after the name of a mesh a positive scale is read");
+      return shape_from_mesh(read_mesh(file), v[0]);
+    }
     if (v.size() != 2 || v[0] != std::floor(v[0]) || std::abs(v[0]) > 1e9 || !(v[1] > 0.0)) {
       refuse(text, "after the file's name a whole label and a positive scale are read");
     }
-    return shape_from_image(read_nrrd(text.substr(0, end)), static_cast<int>(v[0]), v[1]);
+    return shape_from_image(read_nrrd(file), static_cast<int>(v[0]), v[1]);
   }
 }
 
@@ -91,8 +108,8 @@ Shape<D> shape_from_file(const std::string& text, std::size_t end) {
 
 template <int D>
 Shape<D> shape_of(const std::string& text) {
-  const std::size_t ending = text.rfind(image_ending);
-  if (ending != std::string::npos) return shape_from_file<D>(text, ending + image_ending.size());
+  const std::size_t end = end_of_file_name(text);
+  if (end != std::string::npos) return shape_from_file<D>(text, end);
   const std::size_t colon = text.find(':');
   const std::string kind = text.substr(0, colon);
   if (colon == std::string::npos) refuse(text, "a kind of shape and numbers are needed");

@@ -16,6 +16,7 @@ class StopRequests {
     sigaddset(&set_, SIGINT);
     sigaddset(&set_, SIGTERM);
     pthread_sigmask(SIG_BLOCK, &set_, nullptr);
+    std::signal(SIGXFSZ, SIG_IGN);  // files that may not grow are errors of writing, which say so
   }
   /// Whether one of the signals has come since this was last asked.
   bool arrived() const {

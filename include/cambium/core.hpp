@@ -10,6 +10,7 @@
 #include <cambium/core/error.hpp>
 #include <cambium/core/field.hpp>
 #include <cambium/core/lattice.hpp>
+#include <cambium/core/snapshot.hpp>
 #include <cambium/core/sparse.hpp>
 #include <cambium/core/vec.hpp>
 #include <cambium/core/version.hpp>

@@ -13,6 +13,7 @@
 #include <cambium/interface/cut_domain.hpp>
 #include <cambium/interface/cut_rows.hpp>
 #include <cambium/interface/finite_volumes.hpp>
+#include <cambium/interface/fitted_gradient.hpp>
 #include <cambium/interface/images.hpp>
 #include <cambium/interface/immersed_boundary.hpp>
 #include <cambium/interface/interface_gradient.hpp>

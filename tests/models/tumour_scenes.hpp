@@ -19,8 +19,12 @@ Lattice<D> lattice(std::ptrdiff_t cells) {
   return Lattice<D>::bounded_box({Vec<D>::constant(-4.5), Vec<D>::constant(4.5)}, cells);
 }
 template <int D>
+Vec<D> centre() {
+  return Vec<D>::constant(0.02) + Vec<D>::unit(0, 0.03);
+}
+template <int D>
 Ball<D> ball(double radius) {
-  return {Vec<D>::constant(0.02) + Vec<D>::unit(0, 0.03), radius};
+  return {centre<D>(), radius};
 }
 /// Radius of the ball of the tumour's volume.
 template <class Tumour>

@@ -49,7 +49,8 @@ struct LinePoints {
 /// of degree `Degree` through the value on the interface and those of nodes of the domain. A node that several lines
 /// reach takes their mean, weighted by the inverse fourth power of the distance to the crossing; lines too short for
 /// that degree count where there is no other. Nodes near the interface that no such line reaches, beside sharp tips,
-/// take the quadratic (or linear) continuation of nodes that have values.
+/// take the quadratic (or linear) continuation of nodes that have values. Nodes that lines from opposite sides reach,
+/// in gaps of a few spacings, have values that belong to neither: they are marked.
 template <int D, int Degree = 3>
 class Continuation {
  public:
@@ -59,7 +60,8 @@ class Continuation {
     Index<D> node;
     double weight;
     double sum;
-    bool whole;  ///< by polynomials of the full degree
+    bool whole;             ///< by polynomials of the full degree
+    std::uint8_t legs = 0;  ///< along which near crossings are
 
     /// Polynomials of the full degree take the place of others.
     void add(double more_weight, double more, bool of_full_degree) {
@@ -71,7 +73,7 @@ class Continuation {
     }
   };
 
-  /// Writes the values into x, and marks their nodes as `continued`; forget() undoes that.
+  /// Writes the values into x, and marks their nodes as `continued` or `between`; forget() undoes that.
   /// \param x       values at the entries of the level
   /// \param data    values on the interface: those of node i of the domain's cut nodes at 2 D i + leg
   /// \param reach   nodes to go beyond the interface
@@ -91,6 +93,9 @@ class Continuation {
       std::erase_if(missing_, [&](const Index<D>& node) { return extrapolate(domain, x, node); });
       write(domain, x, before);
     }
+    for (const Value& value : values_) {
+      if (is_between(value)) domain.kind[value.at] = between;
+    }
     return values_;
   }
   void forget(CutDomain<D>& domain, double* x) const {
@@ -103,6 +108,16 @@ class Continuation {
  private:
   /// Closer to the interface than this a node adds nothing but round-off to the polynomial.
   static constexpr double too_close = 0.25;
+
+  /// Nodes from the crossing up to which values have a part in gradients.
+  static constexpr std::ptrdiff_t near = 3;
+
+  static bool is_between(const Value& value) {
+    for (int d = 0; d < D; ++d) {
+      if ((value.legs >> (2 * d) & 3) == 3) return true;
+    }
+    return false;
+  }
 
   void follow(CutDomain<D>& domain, const double* x, const std::vector<double>& data, std::size_t i, std::size_t k,
               std::ptrdiff_t reach) {
@@ -118,7 +133,9 @@ class Continuation {
       node = next;
       const double distance = static_cast<double>(m) - crossing + 0.1;
       const double weight = 1.0 / (distance * distance * distance * distance);
-      value_at(domain, node).add(weight, weight * line.at(static_cast<double>(m)), line.count > Degree);
+      Value& value = value_at(domain, node);
+      value.add(weight, weight * line.at(static_cast<double>(m)), line.count > Degree);
+      if (m <= near) value.legs = static_cast<std::uint8_t>(value.legs | (1U << k));
     }
   }
   /// True for a node of the domain itself.
@@ -132,7 +149,7 @@ class Continuation {
     if (domain.kind[at] != continued) {
       domain.kind[at] = continued;
       number_[at] = static_cast<std::uint32_t>(values_.size());
-      values_.push_back({at, node, 0.0, 0.0, false});
+      values_.push_back({at, node, 0.0, 0.0, false, 0});
     }
     return values_[number_[at]];
   }
@@ -213,18 +230,22 @@ class Continuation {
   /// Mean over the lines with most values. \return false if there is none
   bool extrapolate(const CutDomain<D>& domain, const double* x, const Index<D>& node) {
     int most = 1;
-    Value value{domain.grid.at(node), node, 0.0, 0.0, false};
+    Value value{domain.grid.at(node), node, 0.0, 0.0, false, 0};
     for (std::size_t k = 0; k < 2 * D; ++k) {
       std::array<double, 3> v{};
+      std::uint8_t legs = 0;
       int count = 0;
       Index<D> next = domain.neighbour(node, k);
       while (count < 3 && domain.in_domain(next)) {
-        v[static_cast<std::size_t>(count++)] = x[domain.grid.at(next)];
+        const std::size_t at = domain.grid.at(next);
+        v[static_cast<std::size_t>(count++)] = x[at];
+        if (domain.kind[at] == continued) legs = static_cast<std::uint8_t>(legs | values_[number_[at]].legs);
         next = domain.neighbour(next, k);
       }
       if (count < 2 || count < most) continue;
       if (count > most) value.weight = value.sum = 0.0;
       most = count;
+      value.legs = static_cast<std::uint8_t>(value.legs | legs);
       value.weight += 1.0;
       value.sum += count == 3 ? 3.0 * (v[0] - v[1]) + v[2] : 2.0 * v[0] - v[1];
     }

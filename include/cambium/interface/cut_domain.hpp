@@ -17,7 +17,8 @@
 namespace cambium::detail {
 
 /// What a node is to a problem on one side of an interface.
-enum NodeKind : std::uint8_t { beyond = 0, plain = 1, given = 2, cut = 3, continued = 4 };
+/// `between`: continued, but by lines that come from opposite sides of it.
+enum NodeKind : std::uint8_t { beyond = 0, plain = 1, given = 2, cut = 3, continued = 4, between = 5 };
 
 /// A node of the domain with a neighbour on the other side. leg[2 d + way]: distance of the interface along -e_d, +e_d
 /// in spacings, in [0, 1]; `whole` if the neighbour is of the domain.

@@ -57,10 +57,7 @@ class Dirichlet {
         levels_(lattice_, params.walls, params.smoother, execution),
         krylov_(execution) {
     check_smoother<S>();
-    if (!(params.shift >= 0.0) || !std::isfinite(params.shift)) {
-      throw ValueError(detail::message("the shift s of s - Lap is ", params.shift, ": it must be finite and >= 0"));
-    }
-    update(band);
+    update(band, params.shift);
   }
 
   const Lattice<D>& lattice() const { return lattice_; }
@@ -79,6 +76,16 @@ class Dirichlet {
     }
     data_.clear();
     levels_.update(band, params_.side, params_.shift * lattice_.spacing() * lattice_.spacing());
+  }
+  /// And another shift, as implicit steps in time of another length have. \throws also ValueError if it is negative or
+  /// not finite; nothing has changed then
+  template <class B>
+  void update(const NarrowBand<B, D>& band, double shift) {
+    if (!(shift >= 0.0) || !std::isfinite(shift)) {
+      throw ValueError(detail::message("the shift s of s - Lap is ", shift, ": it must be finite and >= 0"));
+    }
+    params_.shift = shift;
+    update(band);
   }
 
   /// \param f  right-hand side, read at nodes of the domain
@@ -119,8 +126,7 @@ class Dirichlet {
 
   /// dc/dn on the side of the domain, n = grad phi / |grad phi|, at the closest point of every node of the band that
   /// has one (0 at the others): an extension along normals. Takes c at the nodes of the domain alone, with the data of
-  /// the last solve(). \throws InterfaceError if the domain is too thin for a gradient there; `derivative` may be
-  /// changed
+  /// the last solve(). Of lower order where the lattice does not resolve the domain, or the gap to another part of it
   template <class K, class B>
   void normal_derivative(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const Field<T, D>& c,
                          Field<B, D, Sparse>& derivative, SlopeStencil slopes = SlopeStencil::cubic) {
@@ -130,12 +136,7 @@ class Dirichlet {
     auto& domain = levels_.domain();
     const double* const x = levels_.finest().x.data();
     continuation_.find(domain, levels_.finest().x.data(), data_, gradient_.reach);
-    try {
-      gradient_.differentiate(band, points, domain, x, slopes, derivative, execution_);
-    } catch (...) {
-      forget_solution();
-      throw;
-    }
+    gradient_.differentiate(band, points, domain, x, data_, params_.side, slopes, derivative, execution_);
     forget_solution();
   }
 

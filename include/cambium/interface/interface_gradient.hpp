@@ -9,6 +9,8 @@
 #include <vector>
 
 #include <cambium/interface/cut_domain.hpp>
+#include <cambium/interface/fitted_gradient.hpp>
+#include <cambium/interface/side.hpp>
 #include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/geometry/surface_geometry.hpp>
 
@@ -24,7 +26,8 @@ namespace detail {
 
 /// Derivatives along the normal, at closest points, of values that were continued beyond the interface: of the product
 /// of cubic polynomials through the 4^D nodes around a point; where one of them has no value, or is beyond a wall, of
-/// centred differences at the corners of its cell, interpolated linearly.
+/// centred differences at the corners of its cell, interpolated linearly; where these lack one, too (thin parts, sharp
+/// tips), or one would be `between` two fronts, of a fit to the values on the point's own side (see FittedGradient).
 template <int D>
 class InterfaceGradient {
  public:
@@ -32,11 +35,13 @@ class InterfaceGradient {
   static constexpr std::ptrdiff_t reach = D + 2;
 
   /// \param domain  with nodes beyond the interface marked as `continued`, \param x  values at its entries
-  /// \throws InterfaceError if a node that a difference needs has no value
+  /// \param data    values on the interface, of the legs of the cut nodes
   template <class K, class B, Execution E>
   void differentiate(const NarrowBand<B, D>& band, const ClosestPoints<K, B, D>& points, const CutDomain<D>& domain,
-                     const double* x, SlopeStencil slopes, Field<B, D, Sparse>& derivative, const E& execution) {
+                     const double* x, const std::vector<double>& data, Side side, SlopeStencil slopes,
+                     Field<B, D, Sparse>& derivative, const E& execution) {
     workers_.resize(static_cast<std::size_t>(execution.count()));
+    fits_.resize(workers_.size());
     auto& patches = std::get<std::vector<Patch<B, D>>>(patches_);
     patches.resize(workers_.size());
     for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
@@ -49,8 +54,14 @@ class InterfaceGradient {
       for (std::size_t i = 0; i < NarrowBand<B, D>::volume; ++i) {
         values[i] = B(0);
         if (!points.found(b, i)) continue;
-        const Vec<D> gradient = gradient_at(place_of(points, band, b, i), domain, workers_[worker], slopes);
         const Vec<D, B> n = normals(i);
+        const Vec<D> place = place_of(points, band, b, i);
+        Vec<D> gradient = gradient_at(place, domain, workers_[worker], slopes);
+        if (is_missing(gradient)) {
+          Vec<D> outward;
+          for (int d = 0; d < D; ++d) outward[d] = (side == Side::inside ? 1.0 : -1.0) * static_cast<double>(n[d]);
+          gradient = fits_[worker](place, outward, domain, x, data, slopes == SlopeStencil::cubic);
+        }
         double along = 0.0;
         for (int d = 0; d < D; ++d) along += gradient[d] * static_cast<double>(n[d]);
         values[i] = static_cast<B>(along / band.spacing());
@@ -152,7 +163,8 @@ class InterfaceGradient {
       const auto start = static_cast<std::ptrdiff_t>(grid.at(node));
       for (std::ptrdiff_t i = low[0]; i <= high[0]; ++i) {
         const auto at = static_cast<std::size_t>(start + (inner ? i : continued_index(grid, 0, i)));
-        *to++ = domain.kind[at] == beyond ? std::numeric_limits<double>::quiet_NaN() : x[at];
+        *to++ =
+            domain.kind[at] == beyond || domain.kind[at] == between ? std::numeric_limits<double>::quiet_NaN() : x[at];
       }
     });
   }
@@ -167,12 +179,15 @@ class InterfaceGradient {
 
   /// Times the spacing.
   static Vec<D> gradient_at(const Vec<D>& place, const CutDomain<D>& domain, const Box& box, SlopeStencil slopes) {
-    if (slopes == SlopeStencil::differences) return of_differences(place, domain, box);
+    if (slopes == SlopeStencil::differences) return of_differences(place, box);
     const Vec<D> gradient = of_cubics(place, domain.grid, box);
+    return is_missing(gradient) ? of_differences(place, box) : gradient;
+  }
+  static bool is_missing(const Vec<D>& gradient) {
     for (int d = 0; d < D; ++d) {
-      if (std::isnan(gradient[d])) return of_differences(place, domain, box);
+      if (std::isnan(gradient[d])) return true;
     }
-    return gradient;
+    return false;
   }
   /// Not a number where a value is missing.
   static Vec<D> of_cubics(const Vec<D>& place, const LevelGrid<D>& grid, const Box& box) {
@@ -215,15 +230,14 @@ class InterfaceGradient {
     slope = {-(3.0 * t * t - 6.0 * t + 2.0) / 6.0, (3.0 * t * t - 4.0 * t - 1.0) / 2.0,
              -(3.0 * t * t - 2.0 * t - 2.0) / 2.0, (3.0 * t * t - 1.0) / 6.0};
   }
-  static Vec<D> of_differences(const Vec<D>& place, const CutDomain<D>& domain, const Box& box) {
+  /// Not a number where a value is missing.
+  static Vec<D> of_differences(const Vec<D>& place, const Box& box) {
     Vec<D> gradient, part;
-    Index<D> first;
     std::ptrdiff_t start = 0;
     for (int d = 0; d < D; ++d) {
       const double cell = std::floor(place[d]);
       part[d] = place[d] - cell;
-      first[d] = static_cast<std::ptrdiff_t>(cell);
-      start += (first[d] - box.first[d]) * box.stride[d];
+      start += (static_cast<std::ptrdiff_t>(cell) - box.first[d]) * box.stride[d];
     }
     for (int corner = 0; corner < 1 << D; ++corner) {
       std::ptrdiff_t at = start;
@@ -237,20 +251,11 @@ class InterfaceGradient {
       const double* const value = box.values.data() + at;
       for (int d = 0; d < D; ++d) gradient[d] += weight * (value[box.stride[d]] - value[-box.stride[d]]);
     }
-    for (int d = 0; d < D; ++d) {
-      if (std::isnan(gradient[d])) fail_beside(domain, first);
-    }
     return gradient;
-  }
-  [[noreturn]] static void fail_beside(const CutDomain<D>& domain, Index<D> node) {
-    for (int d = 0; d < D; ++d) node[d] = continued_index(domain.grid, d, node[d]);
-    throw InterfaceError(message("no line of the lattice continues the solution to all neighbours of the cell at node ",
-                                 node,
-                                 ", which the gradient at the interface needs: the domain is thinner "
-                                 "than a few spacings there; refine the lattice"));
   }
 
   std::vector<Box> workers_;
+  std::vector<FittedGradient<D>> fits_;
   std::tuple<std::vector<Patch<float, D>>, std::vector<Patch<double, D>>> patches_;
 };
 

@@ -64,6 +64,11 @@ struct BasicClosestPoint {
     void take_blocks(const std::vector<std::ptrdiff_t>& came_from) { points_.take_blocks(came_from); }
     /// Closest points of the nodes at the last call.
     const ClosestPoints<K, T, D>& points() const { return points_; }
+    /// Saves or restores them, for a band of so many blocks, see SnapshotWriter.
+    template <class Self, class Archive>
+    static void visit(Self& self, Archive& archive, std::size_t blocks) {
+      ClosestPoints<K, T, D>::visit(self.points_, archive, blocks);
+    }
 
    private:
     T extended(const NarrowBand<T, D>& band, std::size_t b, std::size_t i, T phi) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <cambium/kernels/hat.hpp>
@@ -76,6 +77,17 @@ class ClosestPoints {
   /// |grad phi| at the closest point.
   T slope(std::size_t b, std::size_t i) const { return slope_[b * Band::volume + i]; }
   const ClosestPointCounts& counts() const { return counts_; }
+
+  /// Saves or restores the points of the nodes of so many blocks, see SnapshotWriter.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive, std::size_t blocks) {
+    const std::size_t size = blocks * Band::volume;
+    archive("points.width", self.width_);
+    for (int d = 0; d < D; ++d) archive("points.offset." + std::to_string(d), self.offset_[d], size);
+    archive("points.error", self.error_, size);
+    archive("points.slope", self.slope_, size);
+    archive("points.method", self.method_, size);
+  }
 
  private:
   static constexpr std::uint8_t not_searched = 3;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <cambium/core/snapshot.hpp>
 #include <cambium/levelset/band_builder.hpp>
 #include <cambium/levelset/closest_point.hpp>
 #include <cambium/levelset/sampler.hpp>
@@ -49,16 +50,24 @@ class LevelSet {
   ///         stencils of the reinitialisation
   template <class F, Execution E = OpenMP>
   LevelSet(const Lattice<D>& lattice, F&& f, const Params& params = {}, const E& execution = {})
-      : band_(lattice, params.half_width * lattice.spacing()),
-        next_(band_),
-        marks_(lattice),
-        reach_(lattice, margin),
-        reinit_(params.reinit),
-        wall_distance_(params.wall_distance),
-        dense_(lattice, params.half_width * lattice.spacing()) {
-    require_width(params.half_width);
+      : LevelSet(lattice, params) {
     sample(f, execution);
     reinitialise(execution);
+  }
+  /// One that was saved, with the same lattice and parameters: to the last bit. \throws SnapshotError, InterfaceError
+  /// for what does not fit
+  static LevelSet restored(const Lattice<D>& lattice, const Snapshot& snapshot, const Params& params = {}) {
+    LevelSet result(lattice, params);
+    SnapshotReader reader(snapshot);
+    visit(result, reader);
+    result.band_.find_far_sides();
+    require_crossing(result.band_);
+    result.dense_.take(result.band_);
+    return result;
+  }
+  void save(Snapshot& snapshot) const {
+    SnapshotWriter writer(snapshot);
+    visit(*this, writer);
   }
 
   const Lattice<D>& lattice() const { return band_.lattice(); }
@@ -129,6 +138,25 @@ class LevelSet {
   }
 
  private:
+  LevelSet(const Lattice<D>& lattice, const Params& params)
+      : band_(lattice, params.half_width * lattice.spacing()),
+        next_(band_),
+        marks_(lattice),
+        reach_(lattice, margin),
+        reinit_(params.reinit),
+        wall_distance_(params.wall_distance),
+        dense_(lattice, params.half_width * lattice.spacing()) {
+    require_width(params.half_width);
+  }
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("lattice", self.lattice());
+    archive("phi", self.band_.values());
+    if constexpr (requires { Method::visit(self.reinit_, archive, self.band_.blocks()); }) {
+      Method::visit(self.reinit_, archive, self.band_.blocks());
+    }
+  }
+
   /// Nodes kept around those of the band.
   static constexpr double margin = 3.0;
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <type_traits>
+#include <utility>
 
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/levelset/measures.hpp>
@@ -99,19 +100,25 @@ class Tumour {
   ///               range; TumourAtWallError if the shape is too near to a bounded face
   template <class F>
   Tumour(const Lattice<D>& lattice, F&& shape, const Params& params = {}, const OpenMP& execution = {})
-      : params_(checked(params)),
-        execution_(execution),
-        level_set_(lattice, shape, params.interface, execution),
-        start_(level_set_),
-        growth_(lattice, params.interface.half_width, params.parameters, execution),
-        stepping_(lattice),
-        motion_(lattice, params.motion),
-        rate_(lattice, unknown),
-        before_(lattice, unknown) {
+      : Tumour(Interface(lattice, shape, checked(params).interface, execution), params, execution) {
     require_off_walls();
     growth_.evaluate(level_set_, std::numeric_limits<double>::infinity());
     growth_.accept();
     find_size();
+  }
+  /// One that was saved, with the same policies, lattice and parameters: its steps are those that the saved one takes
+  /// next, to the last bit. \throws SnapshotError for what does not fit, as the constructor above
+  static Tumour restored(const Lattice<D>& lattice, const Snapshot& snapshot, const Params& params = {},
+                         const OpenMP& execution = {}) {
+    return Tumour(snapshot, Interface::restored(lattice, snapshot, checked(params).interface), params, execution);
+  }
+  /// State between two steps, without lattice, parameters and policies.
+  Snapshot save() const {
+    Snapshot snapshot;
+    level_set_.save(snapshot);
+    SnapshotWriter writer(snapshot);
+    visit(*this, writer);
+    return snapshot;
   }
 
   double time() const { return time_; }
@@ -162,7 +169,7 @@ class Tumour {
     } catch (...) {
       level_set_ = start_;
       last_step_ = last_step;
-      growth_.evaluate(level_set_, last_step > 0.0 ? last_step : std::numeric_limits<double>::infinity());
+      growth_.evaluate(level_set_, 0.0);
       throw;
     }
     step.unresolved = growth_.unresolved();
@@ -174,6 +181,32 @@ class Tumour {
  private:
   using Growth = detail::TumourGrowth<D, Nutrient, Outside, Core, Filter>;
   static constexpr double unknown = Growth::unknown;
+
+  Tumour(Interface level_set, const Params& params, const OpenMP& execution)
+      : params_(params),
+        execution_(execution),
+        level_set_(std::move(level_set)),
+        start_(level_set_),
+        growth_(lattice(), params.interface.half_width, params.parameters, execution),
+        stepping_(lattice()),
+        motion_(lattice(), params.motion),
+        rate_(lattice(), unknown),
+        before_(lattice(), unknown) {}
+  Tumour(const Snapshot& snapshot, Interface level_set, const Params& params, const OpenMP& execution)
+      : Tumour(std::move(level_set), params, execution) {
+    SnapshotReader reader(snapshot);
+    visit(*this, reader);
+    growth_.attach(level_set_);
+    find_size();
+  }
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("time", self.time_);
+    archive("last_step", self.last_step_);
+    archive("speed.before", self.before_);
+    Growth::visit(self.growth_, archive);
+    detail::visit_part(self.stepping_, archive);
+  }
 
   static const Params& checked(const Params& params) {
     require_parameters(params.parameters);

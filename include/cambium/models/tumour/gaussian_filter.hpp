@@ -23,8 +23,10 @@ struct NoFilter {
 };
 
 /// The source's filter of the speed (11.68): along each axis in turn the mean of 6 M + 1 nodes weighted by a Gaussian
-/// of standard deviation M h. Nodes without a speed have no part in it. It damps what the curvature has of round
-/// shapes, too: the answer depends on h M. A comparator.
+/// of standard deviation M h. Nodes without a speed have no part in it. Waves of wave number k along the interface keep
+/// exp(-k^2 s^2 / 2), s^2 being the variance of the weights (by up to 3% below that of the Gaussian: they end at 3 M),
+/// and waves cos(l theta) of a circle of radius r keep 1 - l^2 s^2 / (2 r^2) + O(s^4): resolved ones lose, too, and the
+/// answer depends on h M. A comparator.
 template <int M>
 struct GaussianFilter {
   static_assert(M >= 1, "cambium::GaussianFilter: M must be at least 1");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -26,6 +27,12 @@ struct TumourTimes {
 };
 
 namespace detail {
+
+/// Saves or restores the state of a policy's method that has one.
+template <class Part, class Archive>
+void visit_part(Part& part, Archive& archive) {
+  if constexpr (requires { Part::visit(part, archive); }) Part::visit(part, archive);
+}
 
 /// Adds what a scope takes to a number of seconds.
 class Stopwatch {
@@ -65,7 +72,8 @@ class TumourGrowth {
         drop_(lattice),
         speed_(lattice, unknown) {}
 
-  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest
+  /// Where interfaces meet, kinks have no curvature: it counts up to 1 / h, the tightest curve that the lattice holds.
+  /// \param elapsed  since the nutrient of the last accept(); infinite for one at rest, 0 for that itself
   template <class L>
   void evaluate(const L& level_set, double elapsed) {
     {
@@ -81,9 +89,10 @@ class TumourGrowth {
     find_source(band);
     take_blocks(drop_, band);
     start_speed(band, speed_);
+    const double bound = 1.0 / band.spacing();
     for (std::size_t b = 0; b < band.blocks(); ++b) {
       for (std::size_t i = 0; i < Band::volume; ++i) {
-        drop_.block(b)[i] = parameters_.tension * geometry_.mean.block(b)[i];
+        drop_.block(b)[i] = parameters_.tension * std::clamp(geometry_.mean.block(b)[i], -bound, bound);
       }
     }
     outside_.attach(band, *points_, geometry_);
@@ -91,6 +100,28 @@ class TumourGrowth {
     filter_(band, speed_, execution_);
   }
   void accept() { nutrient_.accept(c_); }
+
+  /// Saves or restores what evaluate() found and what it starts from, see SnapshotWriter.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("nutrient", self.c_);
+    archive("pressure", self.p_);
+    archive("speed", self.speed_);
+    visit_part(self.nutrient_, archive);
+    visit_part(self.outside_, archive);
+    archive("seconds.geometry", self.times_.geometry);
+    archive("seconds.nutrient", self.times_.nutrient);
+    archive("seconds.pressure", self.times_.pressure);
+    archive("seconds.implicit", self.times_.implicit);
+    archive("seconds.motion", self.times_.motion);
+  }
+  /// After restoring: takes the interface that it was evaluated at.
+  template <class L>
+  void attach(const L& level_set) {
+    require_same_blocks(speed_, level_set.band(), "the saved speed");
+    find_geometry(level_set);
+    outside_.attach(level_set.band(), *points_, geometry_);
+  }
 
   /// gamma times the speed that a drop of the pressure with short waves causes, over their wave number.
   double tension_mobility() const { return Outside::mobility * parameters_.tension; }

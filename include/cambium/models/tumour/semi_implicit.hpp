@@ -50,6 +50,10 @@ struct SemiImplicit {
       return products;
     }
     void accept() { std::swap(last_, next_); }
+    template <class Self, class Archive>
+    static void visit(Self& self, Archive& archive) {
+      archive("rate.last", self.last_);
+    }
 
    private:
     using Band = NarrowBand<double, D>;

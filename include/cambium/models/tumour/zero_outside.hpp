@@ -38,8 +38,7 @@ class InsidePressure {
     points_ = &points;
   }
   /// As JumpPressure::solve(), with p = 0 outside, in two parts: that of f with p = 0 on the interface, whose slope is
-  /// taken by cubic polynomials, and that of the drop, see respond(). \throws InterfaceError if the tumour is too thin
-  /// for a gradient
+  /// taken by cubic polynomials, and that of the drop, see respond()
   void solve(Field<double, D>& f, const Values& drop, double, Field<double, D>& p, Values& speed) {
     solver_->solve(
         f, [](const Vec<D>&) { return 0.0; }, grown_);
@@ -53,6 +52,12 @@ class InsidePressure {
     for_each(execution_, p.size(), [&](std::size_t i) { p[i] = grown_[i] + dropped_[i]; });
   }
   std::size_t unresolved() const { return 0; }
+  /// The solutions are the first guesses of the next.
+  template <class Self, class Archive>
+  static void visit(Self& self, Archive& archive) {
+    archive("pressure.grown", self.grown_);
+    archive("pressure.dropped", self.dropped_);
+  }
 
  private:
   /// What a drop of the pressure alone adds to the speed: Lap p = 0. Its slope is that of differences, of second order:
