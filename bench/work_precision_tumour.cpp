@@ -30,6 +30,7 @@ std::vector<Named> verifications() {
         {"--radius", "R(1) of discs and balls", bench::verify_radius},
         {"--relaxation", "surface tension alone, in space", bench::verify_relaxation},
         {"--box-size", "one tumour in boxes of 24 and 48", bench::verify_box},
+        {"--convergence", "one tumour in space on finer and finer lattices", bench::verify_convergence},
         {"--compositions", "error of a radius and a rate against seconds", bench::compare_compositions},
         {"--cost", "time of a step in space and memory", bench::measure_cost},
 #endif

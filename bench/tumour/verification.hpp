@@ -38,6 +38,8 @@ nlohmann::json verify_radius(const TumourOptions& options);
 nlohmann::json verify_relaxation(const TumourOptions& options);
 /// Boxes of 24 and 48 with one spacing.
 nlohmann::json verify_box(const TumourOptions& options);
+/// One tumour in space on lattices that are finer and finer: how far its interfaces are apart.
+nlohmann::json verify_convergence(const TumourOptions& options);
 /// Error against time of the compositions.
 nlohmann::json compare_compositions(const TumourOptions& options);
 /// What a step in space costs, part by part, in pairs of transforms of the doubled box, and the memory of a tumour.
