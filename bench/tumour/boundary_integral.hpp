@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include <cambium/multigrid/eigen.hpp>
 
 #include "tumour/closed_curve.hpp"
 

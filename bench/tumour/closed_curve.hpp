@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+
+#include <cambium/multigrid/eigen.hpp>
 
 namespace bench {
 
