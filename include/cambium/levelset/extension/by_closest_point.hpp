@@ -50,7 +50,7 @@ struct ByClosestPoint {
       for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
         FieldPatch<T, D>& patch = patches_[worker];
         const auto values = to.block(b);
-        detail::for_each_closest_point(
+        detail::for_each_closest_point<K>(
             points, band, b, from, patch,
             [&](std::size_t i, const Vec<D, T>& u) {
               for (int c = 0; c < Components<V>::count; ++c) {

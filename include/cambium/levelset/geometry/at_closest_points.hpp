@@ -34,16 +34,16 @@ struct AtClosestPoints {
       points_.find(band, static_cast<double>(band.half_width()), execution);
       (*this)(band, points_, geometry, execution);
     }
-    /// From closest points that are known: those of points.find(band, ...).
-    template <Execution E>
-    void operator()(const NarrowBand<T, D>& band, const Points& points, BandGeometry<T, D>& geometry,
-                    const E& execution) {
+    /// From closest points that are known: those of points.find(band, ...), by any kernel.
+    template <class Found, Execution E>
+    void operator()(const NarrowBand<T, D>& band, const ClosestPoints<Found, T, D>& points,
+                    BandGeometry<T, D>& geometry, const E& execution) {
       geometry.take_blocks(band);
       patches_.resize(static_cast<std::size_t>(execution.count()));
       const T h = static_cast<T>(band.spacing());
       for_each_piece_by_worker(execution, band.blocks(), 1, [&](std::size_t worker, std::size_t b, std::size_t) {
         Patch<T, D>& patch = patches_[worker];
-        detail::for_each_closest_point(
+        detail::for_each_closest_point<K>(
             points, band, b, band, patch,
             [&](std::size_t i, const Vec<D, T>& u) {
               const Jet<T, D> jet = Interpolant<K, T, D>::jet(patch.data(), patch.stride(), u);
