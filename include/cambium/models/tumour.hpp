@@ -88,7 +88,7 @@ class Tumour {
   struct Params {
     TumourParameters parameters = {};
     double courant = 0.25;   ///< spacings that the interface travels in a step
-    double change = 0.15;    ///< of the speed in a step, relative to it
+    double change = 0.03;    ///< of the speed in a step, relative to it
     double stiffness = 0.8;  ///< share of the step up to which surface tension is stable that explicit steps take
     std::ptrdiff_t wall_distance = 5;  ///< nodes from a bounded face at which the tumour counts as having reached it
     double smallest_radius = 3.0;      ///< in spacings: a tumour of the volume of a smaller ball counts as extinct
