@@ -26,7 +26,8 @@ json ball_at_rest(std::ptrdiff_t cells, const TumourOptions& options) {
                   {.parameters = TumourParameters::relaxing(options.tension_or(1.0))}, OpenMP{options.threads});
   const Measures<3> before = measures(tumour.level_set().band());
   const double speed = largest_speed(tumour);
-  json result = grow(tumour, 1e3, 100);
+  json result;
+  for (int step = 1; step <= 100; ++step) result = grow(tumour, 0.01 * options.end_or(1.0) * step);
   const Measures<3> after = measures(tumour.level_set().band());
   const double radius = std::cbrt(0.75 * after.volume / std::numbers::pi);
   const double drift = after.volume / before.volume - 1.0;
@@ -41,9 +42,8 @@ json ball_at_rest(std::ptrdiff_t cells, const TumourOptions& options) {
                  {"last_speed", largest_speed(tumour)}});
   std::printf(
       "ball at rest  %4td cells  t = %.3f, %d steps  volume %9.2e  curvature %9.2e to %9.2e  speed %9.2e, "
-      "%9.2e at first  %5d products %.1f s\n",
-      cells, tumour.time(), result["steps"].get<int>(), drift, least, most, largest_speed(tumour), speed,
-      result["iterations"].get<int>(), result["seconds"].get<double>());
+      "%9.2e at first\n",
+      cells, tumour.time(), 100, drift, least, most, largest_speed(tumour), speed);
   std::fflush(stdout);
   return result;
 }
