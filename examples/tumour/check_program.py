@@ -19,6 +19,8 @@ import time
 import zlib
 from pathlib import Path
 
+from same_run import check_same, report_of
+
 program, folder = sys.argv[1], Path(sys.argv[2])
 small = ["--n", "32", "--no-page"]
 
@@ -155,21 +157,6 @@ def check_signal():
     assert child.wait(timeout=20) == 0
     report = json.loads((out / "report.json").read_text())
     assert "signal" in report["ended"] and report["frames"][-1]["t"] == report["t"], report
-
-
-def report_of(out):
-    """The report without what the clock says, and where."""
-    report = json.loads((out / "report.json").read_text())
-    return {name: value for name, value in report.items() if name not in ("seconds", "parts", "options")}
-
-
-def check_same(out, other):
-    """Two runs left the same, to the last bit."""
-    assert report_of(out) == report_of(other)
-    names = [f"{kind}_t{frame['name']}.{ending}" for frame in report_of(out)["frames"]
-             for kind, ending in (("interface", "csv"), ("fields", "vti"))]
-    for name in ["series.csv", *names]:
-        assert (out / name).read_bytes() == (other / name).read_bytes(), name
 
 
 def check_resume():

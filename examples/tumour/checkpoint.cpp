@@ -18,6 +18,7 @@ namespace {
 constexpr const char* format = "cambium tumour checkpoint";
 constexpr std::int64_t version = 1;
 constexpr hsize_t chunk = 1 << 15;
+constexpr hsize_t most_packed = 1100;  ///< bytes that a byte of deflate can stand for: 1032, rounded up
 constexpr const char* damaged = "is cut off or damaged: take an older copy, or start the run once more";
 
 /// Identifier of the library's that is closed at the end of a scope. \throws CheckpointError if there is none
@@ -100,14 +101,16 @@ class File {
   }
 
   Checkpoint read() {
+    bytes_ = std::filesystem::file_size(path_);
     const Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDONLY, access_), H5Fclose, path_, "opening");
     std::string said;
     std::vector<std::int64_t> number;
     read_attribute(file, "format", said);
     if (said != format) throw CheckpointError(path_.string() + " is not a checkpoint of this program: " + said);
     read_attribute(file, "version", number);
-    if (number != std::vector{version}) {
-      throw CheckpointError(cambium::detail::message(path_.string(), " is of version ", number.at(0),
+    require(number.size() == 1, "version");
+    if (number[0] != version) {
+      throw CheckpointError(cambium::detail::message(path_.string(), " is of version ", number[0],
                                                      ", this program reads version ", version,
                                                      ": go on with the program that wrote it"));
     }
@@ -136,7 +139,7 @@ class File {
   void read_attribute(hid_t file, const char* name, Values& values) {
     const Handle at(H5Aopen(file, name, H5P_DEFAULT), H5Aclose, path_, name);
     const Handle space(H5Aget_space(at), H5Sclose, path_, name);
-    values.resize(extent_of(space, name));
+    values.resize(extent_of(space, H5Aget_storage_size(at), name));
     require(H5Aread(at, native_type_of<typename Values::value_type>(), values.data()) >= 0, name);
   }
   /// In compressed pieces, each with a checksum.
@@ -160,7 +163,7 @@ class File {
   void read_data(hid_t file, const std::string& name, Values& values) {
     const Handle data(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, path_, name);
     const Handle space(H5Dget_space(data), H5Sclose, path_, name);
-    values.resize(extent_of(space, name));
+    values.resize(extent_of(space, most_packed * H5Dget_storage_size(data), name));
     using V = typename Values::value_type;
     require(H5Dread(data, native_type_of<V>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0, name);
   }
@@ -176,15 +179,16 @@ class File {
       read_data(group, entry, map[entry]);
     }
   }
-  /// A size that is damaged is not to take all memory.
-  std::size_t extent_of(hid_t space, const std::string& name) const {
+  /// A size that is damaged is not to take all memory: values have a byte each at least, and the file has them.
+  std::size_t extent_of(hid_t space, hsize_t most, const std::string& name) const {
     const hssize_t size = H5Sget_simple_extent_npoints(space);
-    require(size >= 0 && size < (hssize_t{1} << 34), name);
+    require(size >= 0 && static_cast<hsize_t>(size) <= std::min(most, most_packed * bytes_), name);
     return static_cast<std::size_t>(size);
   }
 
   std::filesystem::path path_;
   Handle access_;
+  hsize_t bytes_ = 0;  ///< of the file that is read
 };
 
 }  // namespace

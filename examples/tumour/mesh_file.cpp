@@ -184,6 +184,7 @@ std::vector<PlyElement> read_ply_head(const Source& source, std::string& format,
     if (format != "ascii" && format != "binary_little_endian") {
       source.refuse("has format '" + format + "': save it as ascii or binary_little_endian");
     }
+    if (in.eof()) source.refuse("ends with its header: is it cut off?");
     begin = static_cast<std::size_t>(in.tellg());
     return elements;
   }
@@ -197,6 +198,8 @@ TriangleMesh read_ply(const Source& source) {
   PlyNumbers numbers(source, begin, format == "ascii");
   TriangleMesh mesh;
   for (const PlyElement& element : elements) {
+    // What takes no bytes would have no end.
+    if (element.properties.empty() && element.count > 0) source.refuse("has elements without properties");
     for (std::size_t k = 0; k < element.count; ++k) {
       Vec<3> x = Vec<3>::constant(std::nan(""));
       std::vector<std::ptrdiff_t> polygon;
