@@ -31,7 +31,7 @@ std::vector<Band> grown(std::ptrdiff_t cells, const std::vector<double>& times, 
                 tumour.time(), run["volume"].get<double>(), run["steps"].get<int>(), run["seconds"].get<double>(),
                 run.value("stopped", "").c_str());
     std::fflush(stdout);
-    if (run.contains("stopped")) break;
+    if (run.contains("stopped") || tumour.extinct()) break;
     bands.push_back(tumour.level_set().band());
   }
   return bands;
@@ -51,7 +51,7 @@ json verify_convergence(const TumourOptions& options) {
   const std::vector<double> times = options.smoke ? std::vector{0.1} : std::vector{0.5, 1.0, 1.5, 2.0};
   json runs = json::array();
   std::vector<Band> coarse;
-  for (const auto n : options.cells_or({32, 64, 128})) {
+  for (const auto n : options.cells_or({64, 96, 128})) {
     std::vector<Band> fine = grown(n, times, options);
     for (std::size_t k = 0; k < std::min(coarse.size(), fine.size()); ++k) {
       const double apart = std::max(distance(coarse[k], fine[k]), distance(fine[k], coarse[k]));
