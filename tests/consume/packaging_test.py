@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One version wherever one is named, and the recipe for Conan (with a stand-in for Conan: only what the recipe calls)."""
 
+from fnmatch import fnmatch
 import importlib.util
 import re
 import shutil
@@ -24,7 +25,8 @@ def stand_in():
         pass
 
     def copy(_, pattern, source, target):
-        found = list(Path(source).rglob(pattern))
+        # As Conan does: the pattern is that of the whole path from the source on.
+        found = [p for p in Path(source).rglob("*") if p.is_file() and fnmatch(p.relative_to(source).as_posix(), pattern)]
         for path in found:
             place = Path(target) / path.relative_to(source)
             place.parent.mkdir(parents=True, exist_ok=True)

@@ -98,6 +98,9 @@ BOOST_AUTO_TEST_CASE(thinner_ones_have_some) {
   for (const double thickness : {0.8, 1.5}) {
     const Errors found = errors_of_ring(thickness, SlopeStencil::differences);
     BOOST_TEST(found.count > 100);
-    BOOST_TEST(found.largest < 2.0);  // measured 1.0: slopes of zero
+    // Measured 4.2, of nodes beside the part that are continued from its other nodes. Were these taken as between two
+    // fronts it would be 1.0, slopes of zero; but so would be nodes beside the poles of balls, at the cost of 0.2%
+    // there.
+    BOOST_TEST(found.largest < 5.0);
   }
 }

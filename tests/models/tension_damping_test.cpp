@@ -98,7 +98,7 @@ using Ovals = std::tuple<Tumour<2, SemiImplicit>, Tumour<2, SemiImplicit, ZeroOu
 // before anywhere else: it grew to 4 and more within 10 steps with B a third of what it is.
 BOOST_AUTO_TEST_CASE_TEMPLATE(surface_tension_does_not_bound_steps, T, Ovals) {
   constexpr int D = T::dimension;
-  T tumour(lattice<D>(D == 2 ? 96 : 32), oval<D>(0.15), {.parameters = {.tension = 5.0}});
+  T tumour(lattice<D>(D == 2 ? 96 : 32), oval<D>(0.15), {.parameters = {.tension = 5.0}, .change = 10.0});
   const double before = spread_of_curvature(tumour);
   for (int i = 0; i < (D == 2 ? 40 : 12); ++i) {
     const TumourStep step = tumour.step();

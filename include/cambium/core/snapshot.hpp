@@ -21,8 +21,8 @@ class SnapshotError : public Error {
 
 /// State of something between two steps: arrays of numbers by their names, as files keep them.
 struct Snapshot {
-  std::map<std::string, std::vector<double>> reals;
-  std::map<std::string, std::vector<std::int64_t>> whole;
+  std::map<std::string, std::vector<double>> reals;        ///< arrays of real numbers
+  std::map<std::string, std::vector<std::int64_t>> whole;  ///< arrays of whole numbers
 
   friend bool operator==(const Snapshot&, const Snapshot&) = default;
 };

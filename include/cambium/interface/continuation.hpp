@@ -233,19 +233,15 @@ class Continuation {
     Value value{domain.grid.at(node), node, 0.0, 0.0, false, 0};
     for (std::size_t k = 0; k < 2 * D; ++k) {
       std::array<double, 3> v{};
-      std::uint8_t legs = 0;
       int count = 0;
       Index<D> next = domain.neighbour(node, k);
       while (count < 3 && domain.in_domain(next)) {
-        const std::size_t at = domain.grid.at(next);
-        v[static_cast<std::size_t>(count++)] = x[at];
-        if (domain.kind[at] == continued) legs = static_cast<std::uint8_t>(legs | values_[number_[at]].legs);
+        v[static_cast<std::size_t>(count++)] = x[domain.grid.at(next)];
         next = domain.neighbour(next, k);
       }
       if (count < 2 || count < most) continue;
       if (count > most) value.weight = value.sum = 0.0;
       most = count;
-      value.legs = static_cast<std::uint8_t>(value.legs | legs);
       value.weight += 1.0;
       value.sum += count == 3 ? 3.0 * (v[0] - v[1]) + v[2] : 2.0 * v[0] - v[1];
     }

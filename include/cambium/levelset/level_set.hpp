@@ -65,6 +65,7 @@ class LevelSet {
     result.dense_.take(result.band_);
     return result;
   }
+  /// Adds phi and what the reinitialisation knows of it.
   void save(Snapshot& snapshot) const {
     SnapshotWriter writer(snapshot);
     visit(*this, writer);

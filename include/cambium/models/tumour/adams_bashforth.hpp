@@ -46,8 +46,7 @@ struct AdamsBashforth {
   class Method {
    public:
     explicit Method(const Lattice<D>&) {}
-    /// Calls move(rate), which moves `level_set`, as often as needed. \param start  copy of `level_set`
-    /// \param growth  evaluated at `level_set`
+    /// Calls move(rate), which moves the level set, once. \param growth  evaluated at the level set
     template <class L, class Growth, class Move>
     int operator()(L&, const L&, Growth& growth, const Field<double, D, Sparse>& before, double dt, double dt_before,
                    Field<double, D, Sparse>& rate, Move&& move, const OpenMP& execution) {

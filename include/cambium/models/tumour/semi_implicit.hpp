@@ -50,6 +50,7 @@ struct SemiImplicit {
       return products;
     }
     void accept() { std::swap(last_, next_); }
+    /// The rate of the last step is its state.
     template <class Self, class Archive>
     static void visit(Self& self, Archive& archive) {
       archive("rate.last", self.last_);
