@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(surface_tension_does_not_bound_steps, T, Ovals) {
   constexpr int D = T::dimension;
   T tumour(lattice<D>(D == 2 ? 96 : 32), oval<D>(0.15), {.parameters = {.tension = 5.0}, .change = 10.0});
   const double before = spread_of_curvature(tumour);
-  for (int i = 0; i < (D == 2 ? 40 : 12); ++i) {
+  for (int i = 0; i < (D == 2 ? 45 : 12); ++i) {
     const TumourStep step = tumour.step();
     BOOST_CHECK(step.bound == Limit::advection || step.bound == Limit::growth);
     BOOST_REQUIRE(spread_of_curvature(tumour) < 1.05 * before);

@@ -90,8 +90,8 @@ BOOST_AUTO_TEST_CASE(threads_change_no_bit) {
 }
 
 BOOST_AUTO_TEST_CASE(shares_of_cells_are_those_of_planes) {
-  BOOST_TEST(detail::share_below(Vec<2>{1.0, 1.0}, 0.0) == 0.5, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(detail::share_below(Vec<2>{1.0, 1.0}, -0.5) == 0.125, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(detail::share_below(Vec<3>{0.0, -2.0, 0.0}, 0.5) == 0.75, boost::test_tools::tolerance(1e-2));
-  BOOST_TEST(detail::share_below(Vec<3>{1.0, 1.0, 1.0}, -1.0) == 1.0 / 48.0, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(detail::cube_below<0>(Vec<2>{1.0, 1.0}, 0.0) == 0.5, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(detail::cube_below<0>(Vec<2>{1.0, 1.0}, -0.5) == 0.125, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(detail::cube_below<0>(Vec<3>{0.0, -2.0, 0.0}, 0.5) == 0.75, boost::test_tools::tolerance(1e-2));
+  BOOST_TEST(detail::cube_below<0>(Vec<3>{1.0, 1.0, 1.0}, -1.0) == 1.0 / 48.0, boost::test_tools::tolerance(1e-12));
 }

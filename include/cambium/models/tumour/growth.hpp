@@ -10,6 +10,8 @@
 #include <cambium/kernels/lambda.hpp>
 #include <cambium/levelset/closest_points.hpp>
 #include <cambium/levelset/geometry/at_closest_points.hpp>
+#include <cambium/models/tumour/centred_source.hpp>
+#include <cambium/models/tumour/interface_source.hpp>
 #include <cambium/models/tumour/parameters.hpp>
 #include <cambium/models/tumour/sides.hpp>
 
@@ -73,6 +75,7 @@ class TumourGrowth {
         c_(lattice, 1.0),
         p_(lattice),
         source_(lattice),
+        centred_(lattice),
         drop_(lattice),
         speed_(lattice, unknown) {}
 
@@ -100,7 +103,7 @@ class TumourGrowth {
       }
     }
     outside_.attach(band, *points_, geometry_);
-    outside_.solve(source_, drop_, parameters_.growth * (1.0 - parameters_.apoptosis), p_, speed_);
+    outside_.solve(source_, drop_, InterfaceSource<D>{parameters_, c_}, p_, speed_);
     filter_(band, speed_, execution_);
   }
   void accept() { nutrient_.accept(c_); }
@@ -166,9 +169,12 @@ class TumourGrowth {
     curvature_(band, *points_, geometry_, execution_);
   }
   void find_source(const Band& band) {
-    for_each_side(band, execution_, [&](std::size_t i, bool inside) {
-      source_[i] = inside ? Core::source(parameters_, c_, band, i) : 0.0;
-    });
+    const auto find_plain = [&](Field<double, D>& plain) {
+      for_each_side(band, execution_, [&](std::size_t i, bool inside) {
+        plain[i] = inside ? Core::source(parameters_, c_, band, i) : unknown;
+      });
+    };
+    centred_.find(execution_, find_plain, source_);
   }
 
   TumourParameters parameters_;
@@ -182,6 +188,7 @@ class TumourGrowth {
   typename Outside::template Method<D, Kernel> outside_;
   typename Filter::template Method<D> filter_;
   Field<double, D> c_, p_, source_;
+  CentredSource<D> centred_;
   Values drop_, speed_;
 };
 

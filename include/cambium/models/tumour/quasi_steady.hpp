@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <cambium/interface/dirichlet.hpp>
+#include <cambium/models/tumour/centred_source.hpp>
 #include <cambium/models/tumour/policy.hpp>
 #include <cambium/models/tumour/sides.hpp>
 
@@ -25,10 +26,10 @@ struct QuasiSteady {
       if (solver_) {
         solver_->update(band);
       } else {
-        solver_.emplace(band, typename Dirichlet<D>::Params{.shift = 1.0}, execution_);
+        solver_.emplace(band, typename Dirichlet<D>::Params{.shift = shift(band.spacing())}, execution_);
       }
       solver_->solve(
-          zero_, [](const Vec<D>&) { return 1.0; }, c);
+          zero_, [](const Vec<D>&) { return 1.0; }, c, CutStencil::cubic);
       detail::for_each_side(band, execution_, [&](std::size_t i, bool inside) {
         if (!inside) c[i] = 1.0;
       });
@@ -36,6 +37,9 @@ struct QuasiSteady {
     void accept(const Field<double, D>&) {}
 
    private:
+    /// Lap c = c and Lap^2 c = c: the stencil's mean over directions is (1 + e) c, see stencil_error().
+    static constexpr double shift(double spacing) { return 1.0 + detail::stencil_error<D>(spacing); }
+
     Field<double, D> zero_;
     OpenMP execution_;
     std::optional<Dirichlet<D>> solver_;

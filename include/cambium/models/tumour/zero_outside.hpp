@@ -10,6 +10,7 @@
 #include <cambium/interface/dirichlet.hpp>
 #include <cambium/levelset/closest_point_walk.hpp>
 #include <cambium/levelset/geometry/band_geometry.hpp>
+#include <cambium/models/tumour/interface_source.hpp>
 #include <cambium/models/tumour/policy.hpp>
 #include <cambium/models/tumour/sides.hpp>
 #include <cambium/models/tumour/value_at.hpp>
@@ -39,9 +40,9 @@ class InsidePressure {
   }
   /// As JumpPressure::solve(), with p = 0 outside, in two parts: that of f with p = 0 on the interface, whose slope is
   /// taken by cubic polynomials, and that of the drop, see respond()
-  void solve(Field<double, D>& f, const Values& drop, double, Field<double, D>& p, Values& speed) {
+  void solve(Field<double, D>& f, const Values& drop, const InterfaceSource<D>&, Field<double, D>& p, Values& speed) {
     solver_->solve(
-        f, [](const Vec<D>&) { return 0.0; }, grown_);
+        f, [](const Vec<D>&) { return 0.0; }, grown_, CutStencil::cubic);
     find_speed(grown_, SlopeStencil::cubic, speed);
     set_outside(grown_, 0.0);
     part_ = speed;
