@@ -7,9 +7,9 @@
 
 #include <cambium/surface/flux_laplacian.hpp>
 
-#include "particle_carrier.hpp"
-#include "rare_extension.hpp"
 #include "support/order.hpp"
+#include "support/surface/particle_carrier.hpp"
+#include "support/surface/rare_extension.hpp"
 
 using namespace particles;
 using modes::sampled;
