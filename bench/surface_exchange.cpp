@@ -8,9 +8,9 @@
 #include <cstdio>
 #include <vector>
 
-#include "../tests/surface/carrier.hpp"
-#include "../tests/surface/exchange_modes.hpp"
 #include "support/clock.hpp"
+#include "support/surface/carrier.hpp"
+#include "support/surface/exchange_modes.hpp"
 
 namespace bench {
 namespace {

@@ -15,11 +15,11 @@
 
 #include <cambium/levelset/extension/by_pde.hpp>
 
-#include "../tests/surface/carrier.hpp"
-#include "../tests/surface/particle_carrier.hpp"
-#include "../tests/surface/rare_extension.hpp"
 #include "support/clock.hpp"
 #include "support/command.hpp"
+#include "support/surface/carrier.hpp"
+#include "support/surface/particle_carrier.hpp"
+#include "support/surface/rare_extension.hpp"
 
 using namespace motion;
 

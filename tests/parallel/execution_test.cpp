@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Cambium authors
 // SPDX-License-Identifier: BSD-3-Clause
 #define BOOST_TEST_MODULE execution
+#include <algorithm>
 #include <atomic>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <support/count_allocations.hpp>
 #include <vector>
 
 #include <cambium/parallel/execution.hpp>
@@ -126,4 +128,23 @@ BOOST_AUTO_TEST_CASE(reduction_keeps_the_order_of_what_does_not_commute) {
     BOOST_TEST((reduce(execution, 3000, std::string(), digit, append) == expected));
     BOOST_TEST((reduce(execution, 0, std::string("none"), digit, append) == "none"));
   });
+}
+
+// More pieces than wait at a time: still the fold of the folds of 1024 items each, and nothing is allocated for it.
+BOOST_AUTO_TEST_CASE(reduction_of_many_pieces_has_the_bits_of_the_plain_fold) {
+  constexpr std::size_t count = 300 * 1024 + 77;
+  const auto term = [](std::size_t i) { return 1.0 / (1.0 + static_cast<double>(i)); };
+  double expected = 0.0;
+  for (std::size_t begin = 0; begin < count; begin += 1024) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < std::min<std::size_t>(count, begin + 1024); ++i) sum += term(i);
+    expected += sum;
+  }
+  with_every_execution(
+      [&](const auto& execution) { BOOST_TEST(reduce(execution, count, 0.0, term, std::plus<>()) == expected); });
+  const std::size_t before = support::allocations;
+  const double sum = reduce(Serial{}, count, 0.0, term, std::plus<>());
+  const std::size_t allocated = support::allocations - before;
+  BOOST_TEST(sum == expected);
+  BOOST_TEST(allocated == 0U);
 }

@@ -6,7 +6,7 @@
 
 #include <cambium/levelset/measures.hpp>
 
-#include "carrier.hpp"
+#include "support/surface/carrier.hpp"
 
 using namespace motion;
 

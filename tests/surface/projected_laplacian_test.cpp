@@ -7,8 +7,8 @@
 
 #include <cambium/levelset/extension/by_closest_point.hpp>
 
-#include "rare_extension.hpp"
 #include "support/order.hpp"
+#include "support/surface/rare_extension.hpp"
 
 using namespace modes;
 

@@ -10,9 +10,9 @@
 #include <cambium/surface/surface_band.hpp>
 #include <cambium/time/rk4.hpp>
 
-#include "sphere_modes.hpp"
 #include "support/count_allocations.hpp"
 #include "support/order.hpp"
+#include "support/surface/sphere_modes.hpp"
 
 using namespace cambium;
 

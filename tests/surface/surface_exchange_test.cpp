@@ -9,9 +9,9 @@
 
 #include <cambium/levelset/shapes/ellipsoid.hpp>
 
-#include "exchange_modes.hpp"
 #include "support/count_allocations.hpp"
 #include "support/order.hpp"
+#include "support/surface/exchange_modes.hpp"
 
 using namespace modes;
 

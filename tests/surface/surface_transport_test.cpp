@@ -4,8 +4,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "carrier.hpp"
 #include "support/order.hpp"
+#include "support/surface/carrier.hpp"
 
 using namespace motion;
 

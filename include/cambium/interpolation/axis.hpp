@@ -26,6 +26,13 @@ std::ptrdiff_t cells_along(const Lattice<D>& lattice, int axis) {
   return lattice.nodes()[axis] - (lattice.periodic(axis) || K::support % 2 == 1 ? 0 : 1);
 }
 
+/// Box of cells that one sweep covers, in cells of the lattice.
+template <int D>
+struct CellBox {
+  Index<D> first;
+  Index<D> count;
+};
+
 /// Finds the stencil of kernel K along one axis, for one particle or for a simd::Pack of them.
 ///
 /// Periodic axes wrap. Round-off at a cell's face may put a particle into the neighbouring cell with an offset just

@@ -6,16 +6,15 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <span>
 #include <type_traits>
-#include <vector>
 
 #include <cambium/core/columns.hpp>
 #include <cambium/core/sparse.hpp>
 #include <cambium/interpolation/dense_engine.hpp>
 #include <cambium/interpolation/line_engine.hpp>
 #include <cambium/interpolation/placement.hpp>
+#include <cambium/interpolation/plan_store.hpp>
 #include <cambium/interpolation/sparse_engine.hpp>
 #include <cambium/particles/particles.hpp>
 
@@ -101,47 +100,6 @@ struct InterpolationPlan {
   Engine engine;
   Placement<K, D, P> placement;
   std::array<AlignedVector<T>, C> values;
-};
-
-/// Objects of any type, found by their type and lattice; holds one of each type.
-class PlanStore {
- public:
-  template <class Plan, int D>
-  Plan& get(const Lattice<D>& lattice) {
-    for (auto& entry : entries_) {
-      if (entry.type != &tag<Plan>) continue;
-      auto* plan = static_cast<Plan*>(entry.object.get());
-      if (!(plan->engine.lattice() == lattice)) {
-        entry.object = make<Plan>(lattice);
-        plan = static_cast<Plan*>(entry.object.get());
-      }
-      return *plan;
-    }
-    entries_.push_back({&tag<Plan>, make<Plan>(lattice)});
-    return *static_cast<Plan*>(entries_.back().object.get());
-  }
-
- private:
-  template <class>
-  static constexpr char tag = 0;
-  /// Owner of an object whose type only the deleter knows.
-  using Object = std::unique_ptr<void, void (*)(void*)>;
-  struct Entry {
-    const char* type;
-    Object object;
-  };
-  template <class Plan, int D>
-  static Object make(const Lattice<D>& lattice) {
-    return Object(new Plan(lattice), [](void* plan) { delete static_cast<Plan*>(plan); });
-  }
-  std::vector<Entry> entries_;
-};
-
-/// Holder of a lattice in the form that PlanStore asks for.
-template <int D>
-struct OnLattice {
-  Lattice<D> on;
-  const Lattice<D>& lattice() const { return on; }
 };
 
 /// Sums of weighted values and, as their last component, of weights; and a strength of one for every particle.

@@ -11,13 +11,6 @@
 
 namespace cambium::detail {
 
-/// Box of cells that one sweep covers, in cells of the lattice.
-template <int D>
-struct CellBox {
-  Index<D> first;
-  Index<D> count;
-};
-
 /// The moving window of a sweep along the last axis (2D and 3D), for C components.
 ///
 /// The nodes of the plane being worked on are vectors in scratch: lane (p mod lanes) holds the node in plane p of the

@@ -14,6 +14,8 @@
 #include <cambium/kernels/m4_prime.hpp>
 #include <cambium/levelset/blocks_around.hpp>
 #include <cambium/levelset/closest_point_search.hpp>
+#include <cambium/levelset/crossings.hpp>
+#include <cambium/levelset/kernel_disagreement.hpp>
 #include <cambium/levelset/nearest_points.hpp>
 #include <cambium/levelset/point_box.hpp>
 
@@ -100,16 +102,6 @@ class ClosestPoints {
   /// Nodes that the search of a far node may stray from where it starts, tangentially.
   static constexpr std::ptrdiff_t wander = 2;
 
-  /// There is a kink if K and the finer kernel differ by so many spacings at least, and by that share of how far the
-  /// linear interpolant is: next to kinks it is seldom less than 0.04, on smooth shapes it falls with the cube of the
-  /// spacing. For kernels of low order this tells nothing.
-  static constexpr T resolved = T(5e-4);
-  static constexpr T smooth = T(0.02);
-  static constexpr int high_order = 4;
-  /// Those who ask grant twice the error, so that half of the distance to the linear interpolant's zero set would do
-  /// for planes; the rest is for corners.
-  static constexpr T share_of_linear = T(0.7);
-
   template <class Column>
   static void take_blocks(Column& column, const std::vector<std::ptrdiff_t>& came_from,
                           typename Column::value_type absent, Column& taken) {
@@ -139,6 +131,7 @@ class ClosestPoints {
     const Jet<T, D>* jet;
   };
   using Nearest = detail::NearestPoints<T, D, Source>;
+  using Disagreement = detail::KernelDisagreement<K, Finer, T, D>;
 
   /// Nodes with a neighbour on the other side.
   template <Execution E>
@@ -147,48 +140,24 @@ class ClosestPoints {
       near_jets_[b].clear();
       Patch<T, D>& patch = patches_[worker];
       patch.read_block(band, b, 1);
-      if (!crossed(patch)) return;
+      if (!detail::has_both_signs(patch)) return;
       patch.read_block(band, b, static_cast<std::ptrdiff_t>(near_reach) + stencil);
       for (std::size_t i = 0; i < Band::volume; ++i) search_near(band, patch, b, i);
     });
   }
-  static bool crossed(const Patch<T, D>& patch) {
-    std::ptrdiff_t negative = 0;
-    const std::ptrdiff_t size = product(patch.edge());
-    for (std::ptrdiff_t at = 0; at < size; ++at) negative += patch[at] < T(0);
-    return negative > 0 && negative < size;
-  }
   void search_near(const Band& band, const Patch<T, D>& patch, std::size_t b, std::size_t i) {
     const std::ptrdiff_t at = patch.entry(i);
     Vec<D, T> offset;
-    if (!crossing(patch, at, offset) || !band.lattice().contains(band.values().node(b, i))) return;
+    if (!detail::crossing(patch, at, offset) || !band.lattice().contains(band.values().node(b, i))) return;
     const Vec<D, T> x = patch.position(at);
     Vec<D, T> y = x + offset;
     const std::size_t to = b * Band::volume + i;
     Jet<T, D> jet;
     method_[to] = search<K, M4Prime, Hat>(patch, x, y, static_cast<T>(near_reach), T(0.5), nullptr, &jet);
-    error_[to] = method_[to] == not_searched ? T(0.5) : uncertainty(patch, y, jet);
+    error_[to] = method_[to] == not_searched ? T(0.5) : Disagreement::uncertainty(patch, y, jet);
     set_offset(to, y - x);
     slope_[to] = norm(jet.gradient) / static_cast<T>(band.spacing());
     near_jets_[b].push_back(jet);
-  }
-  /// The linear estimate of the closest point from the crossings of the lattice lines through a node: the foot of the
-  /// perpendicular on the plane through them. \return false if no line crosses
-  static bool crossing(const Patch<T, D>& patch, std::ptrdiff_t at, Vec<D, T>& offset) {
-    const T here = patch[at];
-    Vec<D, T> inverse{};
-    bool crossed = false;
-    for (int d = 0; d < D; ++d) {
-      for (const int way : {-1, 1}) {
-        const T there = patch[at + way * patch.stride()[d]];
-        if ((here < T(0)) == (there < T(0))) continue;
-        crossed = true;
-        const T slope = static_cast<T>(way) * (here - there);
-        if (std::abs(slope) > std::abs(inverse[d] * here)) inverse[d] = slope / here;
-      }
-    }
-    if (crossed) offset = here == T(0) ? Vec<D, T>{} : inverse / dot(inverse, inverse);
-    return crossed;
   }
   /// Tries kernels in turn: y becomes the point if one succeeds and is not further from x than y was by more than
   /// `slack`. \param known  jet of the first kernel at y, or null. \param jet  jet at the point, if wanted
@@ -209,23 +178,6 @@ class ClosestPoints {
       return not_searched;
     }
   }
-  /// What the zero set of K may be off by near y, in spacings: how far that of the finer kernel is. With a kink within
-  /// their stencils both overshoot, sometimes alike, so that the linear interpolant, which does not, has a say: without
-  /// it slabs up to four spacings thick moved at every reinitialisation.
-  static T uncertainty(const Patch<T, D>& patch, const Vec<D, T>& y, const Jet<T, D>& jet) {
-    const T error = difference<Finer>(patch, y, jet);
-    if (K::moments < high_order || error < resolved) return error;
-    const T of_linear = difference<Hat>(patch, y, jet);
-    return error < smooth * of_linear ? error : std::max(error, share_of_linear * of_linear);
-  }
-  /// Distance between the zero sets of two kernels near y, in spacings: their values and, since these may agree by
-  /// chance, half of a spacing times their gradients.
-  template <class Other>
-  static T difference(const Patch<T, D>& patch, const Vec<D, T>& y, const Jet<T, D>& jet) {
-    const Jet<T, D> other = Interpolant<Other, T, D>::jet(patch.data(), patch.stride(), y);
-    return (std::abs(other.value) + T(0.5) * norm(other.gradient - jet.gradient)) / norm(jet.gradient);
-  }
-
   /// Numbers of the nodes that search_near() found points for, block by block.
   void list_near(const Band& band) {
     near_.clear();

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include <cambium/interpolation/plan_store.hpp>
 #include <cambium/levelset/geometry/at_closest_points.hpp>
 #include <cambium/levelset/level_set.hpp>
 #include <cambium/models/band_velocity.hpp>
@@ -43,11 +44,13 @@ class MotionBySpecies {
     normals_(narrow, level_set.method().points(), *geometry_, execution);
     list(narrow, level_set.method().points());
     const auto& plan = band.plan();
-    detail::PointReader<Stencil, T, D> reader;
+    auto& reading = readings_.template get<Reading<Stencil>>(level_set.lattice());
+    auto& reader = reading.reader;
+    auto& values = reading.values;
     reader.locate(
         plan, place_.size(), [&](std::size_t q) { return place_[q].point; },
         [&](std::size_t q) { return geometry_->normal.block(place_[q].block)[place_[q].entry]; }, execution);
-    std::vector<detail::GroupValues<Stencil, T, D>> values(static_cast<std::size_t>(execution.count()));
+    values.resize(static_cast<std::size_t>(execution.count()));
     constexpr int species = Components<Species>::count;
     for (auto& one : values) one.fit(plan, species);
     reader.for_each_group(execution, [&](std::size_t w, std::size_t g, std::size_t begin, std::size_t end) {
@@ -71,6 +74,13 @@ class MotionBySpecies {
     std::size_t block, entry;
     Vec<D> point;  ///< the closest point of the node, in spacings
   };
+  template <class Stencil>
+  struct Reading {
+    explicit Reading(const Lattice<D>& lattice) : engine{lattice} {}
+    detail::OnLattice<D> engine;
+    detail::PointReader<Stencil, T, D> reader;
+    std::vector<detail::GroupValues<Stencil, T, D>> values;
+  };
 
   template <class Band, class Points>
   void list(const Band& narrow, const Points& points) {
@@ -93,6 +103,7 @@ class MotionBySpecies {
   std::optional<BandGeometry<T, D>> geometry_;
   Normals normals_;
   std::vector<Place> place_;
+  detail::PlanStore readings_;
 };
 
 /// rate c_species n.

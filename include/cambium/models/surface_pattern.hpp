@@ -153,25 +153,25 @@ class SurfacePattern {
         [&](const auto&, double t, const StepSize& step, double error) { observe(t, step, error); });
   }
   void move(double dt) {
-    Surface moved = surface_;
+    moved_ = surface_;
     if constexpr (Motion::coupled) {
       // Half a step with the velocity of its beginning, then the whole one with that of the middle.
-      carry(moved, motion_.velocity(surface_, band_, state(), execution_), 0.5 * dt);
-      const auto& u = motion_.velocity(moved, next_, view(carried_, next_.size()), execution_);
-      moved = surface_;
-      carry(moved, u, dt);
+      carry(motion_.velocity(surface_, band_, state(), execution_), 0.5 * dt);
+      const auto& u = motion_.velocity(moved_, next_, view(carried_, next_.size()), execution_);
+      moved_ = surface_;
+      carry(u, dt);
     } else {
-      carry(moved, motion_.velocity(surface_, band_, state(), execution_), dt);
+      carry(motion_.velocity(surface_, band_, state(), execution_), dt);
     }
-    std::swap(surface_, moved);
+    std::swap(surface_, moved_);
     std::swap(band_, next_);
     std::swap(c_, carried_);
   }
-  /// Moves a copy of surface_; next_ and carried_ are those of the moved one.
+  /// Moves moved_; next_ and carried_ are those of the moved one.
   template <class U>
-  void carry(Surface& surface, const U& u, double dt) {
-    advection_.step(surface, u, t_, dt, execution_);
-    next_.fit(surface, execution_);
+  void carry(const U& u, double dt) {
+    advection_.step(moved_, u, t_, dt, execution_);
+    next_.fit(moved_, execution_);
     const auto to = view(carried_, next_.size());
     transport_(band_, state(), u, t_, dt, next_, to, execution_);
   }
@@ -193,6 +193,7 @@ class SurfacePattern {
   Species c_;
   Adaptive<Method, State, E> chemistry_;
   double t_ = 0.0;
+  [[no_unique_address]] IfMoving<Surface> moved_{surface_};
   [[no_unique_address]] IfMoving<Band> next_{band_};
   [[no_unique_address]] IfMoving<Species> carried_{c_};
   [[no_unique_address]] IfMoving<Backward<>> advection_{BackwardParams{.path_error = 1e-4, .octaves = 1e-3}};

@@ -3,10 +3,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <exception>
-#include <vector>
 
 #if defined(_OPENMP)
 #include <omp.h>
@@ -95,18 +95,21 @@ void for_each(const E& execution, std::size_t count, F&& f) {
 /// Folds f(0), f(1), ..., f(count - 1) with `combine`, starting from `identity`.
 ///
 /// Pieces of 1024 items are folded in order and their results combined in order: the same bits for any number of
-/// threads.
-template <Execution E, class T, class F, class Combine>
+/// threads. The results of `window` pieces at a time wait on the stack: nothing is allocated.
+template <Execution E, std::default_initializable T, class F, class Combine>
 T reduce(const E& execution, std::size_t count, T identity, F&& f, Combine&& combine) {
-  constexpr std::size_t piece = 1024;
-  std::vector<T> partial((count + piece - 1) / piece, identity);
-  for_each_piece(execution, count, piece, [&](std::size_t begin, std::size_t end) {
-    T sum = identity;
-    for (std::size_t i = begin; i < end; ++i) sum = combine(sum, f(i));
-    partial[begin / piece] = sum;
-  });
+  constexpr std::size_t piece = 1024, window = 128;
   T total = identity;
-  for (const T& sum : partial) total = combine(total, sum);
+  std::array<T, window> partial;
+  for (std::size_t first = 0; first < count; first += window * piece) {
+    const std::size_t here = std::min(window * piece, count - first);
+    for_each_piece(execution, here, piece, [&](std::size_t begin, std::size_t end) {
+      T sum = identity;
+      for (std::size_t i = first + begin; i < first + end; ++i) sum = combine(sum, f(i));
+      partial[begin / piece] = sum;
+    });
+    for (std::size_t p = 0; p * piece < here; ++p) total = combine(total, partial[p]);
+  }
   return total;
 }
 

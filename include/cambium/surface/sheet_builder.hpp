@@ -9,6 +9,7 @@
 
 #include <cambium/surface/sheet_plan.hpp>
 #include <cambium/surface/sheet_points.hpp>
+#include <cambium/surface/stencil_box.hpp>
 
 namespace cambium::detail {
 
@@ -25,11 +26,10 @@ class SheetBuilder {
   using Band = NarrowBand<T, D>;
   using Point = SheetPoint<T, D>;
   using Plan = SheetPlan<T, D>;
-  static constexpr std::ptrdiff_t before = Taps<typename Stencil::Kernel>::before;
-  static constexpr std::ptrdiff_t support = Stencil::Kernel::support;
-  static constexpr std::ptrdiff_t reach = Stencil::reach;
-  /// Nodes along an edge of the patch of a whole block.
-  static constexpr std::ptrdiff_t edge = BlockShape<D>::extent + support - 1 + 2 * reach;
+  using Box = StencilBox<Stencil, D>;
+  static constexpr std::ptrdiff_t before = Box::before;
+  static constexpr std::ptrdiff_t reach = Box::reach;
+  static constexpr std::ptrdiff_t edge = Box::edge;
 
   SheetBuilder(std::type_identity<Stencil>, const Band& band, const ClosestPoints<K, T, D>& points)
       : lattice_(band.lattice()),
@@ -38,7 +38,6 @@ class SheetBuilder {
         first_value_(lattice_, none),
         first_anchor_(lattice_, none),
         first_group_(lattice_, none) {
-    list_box();
     for (std::size_t b = 0; b < band.blocks(); ++b) {
       for (std::size_t i = 0; i < Band::volume; ++i) {
         if (!points.found(b, i) || dot(points.offset(b, i), points.offset(b, i)) > T(D)) continue;
@@ -88,33 +87,7 @@ class SheetBuilder {
     std::vector<std::int32_t> table;  ///< value at each entry of the patch of the block, or none
     std::size_t values = 0;
   };
-  struct BoxNode {
-    Index<D> step;      ///< from the first node of the cell
-    std::size_t entry;  ///< of a patch, for the first cell of a block
-  };
 
-  /// Nodes that the stencils of one cell read.
-  void list_box() {
-    const Index<D> size = Index<D>::constant(support + 2 * reach);
-    for (std::ptrdiff_t k = 0; k < product(size); ++k) {
-      BoxNode node{{}, 0};
-      std::ptrdiff_t rest = k, pitch = 1;
-      int outside = 0;
-      for (int d = 0; d < D; ++d, pitch *= edge) {
-        const std::ptrdiff_t i = rest % size[d];
-        rest /= size[d];
-        outside += i < reach || i >= support + reach ? 1 : 0;
-        node.step[d] = i - before - reach;
-        node.entry += static_cast<std::size_t>(i * pitch);
-      }
-      if (outside <= Stencil::axes) box_.push_back(node);
-    }
-  }
-  static std::size_t entry_of(const Index<D>& in_patch) {
-    std::ptrdiff_t at = 0;
-    for (int d = D - 1; d >= 0; --d) at = at * edge + in_patch[d];
-    return static_cast<std::size_t>(at);
-  }
   /// The lattice's name of a node. \throws InterfaceError if it lies behind a bounded face
   Index<D> wrapped(Index<D> node) const {
     for (int d = 0; d < D; ++d) {
@@ -151,7 +124,7 @@ class SheetBuilder {
     anchors_.push_back({cell, {}, point, first_anchor_(cell), none});
     first_anchor_.set(cell, a);
     const Index<D> block = Numbers::block_of(cell);
-    const std::size_t shift = entry_of(cell - block * BlockShape<D>::extent);
+    const std::size_t shift = Box::entry_of(cell - block * BlockShape<D>::extent);
     const std::int32_t group = first_group_(block);
     for (std::size_t n = 0; n < box_.size(); ++n) {
       const auto known = group == none ? none : groups_[static_cast<std::size_t>(group)].table[shift + box_[n].entry];
@@ -188,7 +161,7 @@ class SheetBuilder {
   /// The first group of the cell's block whose patch has no other values at the entries of the anchor takes it.
   std::int32_t join_group(const Index<D>& cell, std::int32_t anchor) {
     const Index<D> block = Field<T, D, Sparse>::block_of(cell);
-    const std::size_t shift = entry_of(cell - block * BlockShape<D>::extent);
+    const std::size_t shift = Box::entry_of(cell - block * BlockShape<D>::extent);
     std::int32_t first = first_group_(block);
     std::int32_t g = first;
     const auto fits = [&](const Group& group) {
@@ -291,8 +264,8 @@ class SheetBuilder {
   std::vector<Value> values_;
   std::vector<Anchor> anchors_;
   std::vector<Group> groups_;
-  std::vector<BoxNode> box_;
-  std::array<std::int32_t, static_cast<std::size_t>(product(Index<D>::constant(support + 2 * reach)))> found_{};
+  Box box_;
+  std::array<std::int32_t, Box::most> found_{};
   std::vector<std::size_t> order_;
   std::vector<std::int32_t> number_;
   std::size_t second_sheets_ = 0;

@@ -8,8 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include <cambium/interpolation/interpolator.hpp>
+#include <cambium/interpolation/plan_store.hpp>
 #include <cambium/kernels/remeshing_kernel.hpp>
+#include <cambium/levelset/advection/paths.hpp>
 #include <cambium/levelset/advection/velocity.hpp>
 #include <cambium/levelset/front.hpp>
 #include <cambium/levelset/level_set.hpp>
@@ -77,33 +78,20 @@ class Backward {
     detail::require_step(t, dt);
     AdvectionReport report;
     auto& work = works_.template get<Work<T, D>>(level_set.lattice());
-    if (work.worker.size() < static_cast<std::size_t>(execution.count())) {
-      work.worker.resize(static_cast<std::size_t>(execution.count()));
-    }
+    const auto workers = static_cast<std::size_t>(execution.count());
+    if (work.worker.size() < workers) work.worker.resize(workers);
+    work.paths.fit(workers);
     advance(level_set, velocity, t, dt, execution, work, report);
     return report;
   }
 
  private:
-  /// Particles are followed in groups of this size, so that steppers keep their buffers.
-  static constexpr std::size_t group = 64;
   /// Distance from the interface, in spacings, up to which phi must be right for the stencils of the next step.
   static constexpr double clean = 5.0;
   static constexpr std::size_t most_cuts = 20;
-  static constexpr int most_substeps = 4096;
-  /// Points of the front that are asked how many substeps it takes.
-  static constexpr std::size_t probes = 2048;
 
   template <class T, int D>
   struct Worker {
-    Worker() : stepper(positions(), Serial{}) {}
-    Columns<D, T> positions() {
-      std::array<T*, D> first;
-      for (int d = 0; d < D; ++d) first[d] = x[d].data();
-      return {first, group};
-    }
-    std::array<std::array<T, group>, D> x{};
-    S<Columns<D, T>, Serial> stepper;
     detail::NearestPoints<T, D, char> nearest;
     Patch<T, D> patch;
     std::vector<std::size_t> node;
@@ -115,7 +103,7 @@ class Backward {
     detail::OnLattice<D> engine;
     Front<T, D> front;
     detail::PointBins<T, D> bins;
-    std::array<std::array<AlignedVector<T>, D>, 2> probe;  ///< places that two ways of following points come to
+    detail::Paths<S, T, D> paths;
     std::vector<Worker<T, D>> worker;
   };
 
@@ -124,10 +112,13 @@ class Backward {
                AdvectionReport& report) const {
     const Lattice<D>& lattice = level_set.lattice();
     work.front.take(level_set.band(), execution);
-    const int substeps = params_.substeps > 0 ? params_.substeps : find_substeps(work, velocity, t, dt, execution);
+    const Columns<D, T> front = work.front.positions();
+    const int substeps = params_.substeps > 0 ? params_.substeps
+                                              : work.paths.substeps(front, lattice.spacing(), params_.path_error,
+                                                                    velocity, t, dt, execution);
     report.substeps = substeps;
-    push(work, work.front.positions(), velocity, t, dt, substeps, execution);
-    work.bins.fill(lattice, work.front.positions());
+    work.paths.push(front, velocity, t, dt, substeps, execution);
+    work.bins.fill(lattice, front);
     const double stretch = work.front.stretch(lattice.spacing());
     if (stretch > params_.longest_stretch) {
       return advance_by_halves(level_set, velocity, t, dt, execution, work, report);
@@ -158,72 +149,6 @@ class Backward {
     advance(level_set, velocity, t, 0.5 * dt, execution, work, report);
     advance(level_set, velocity, t + 0.5 * dt, 0.5 * dt, execution, work, report);
   }
-  /// Moves points from t to t + dt.
-  template <class T, int D, class V, class E>
-  static void push(Work<T, D>& work, const Columns<D, T>& x, V&& velocity, double t, double dt, int substeps,
-                   const E& execution) {
-    for_each_piece_by_worker(execution, x.size(), group, [&](std::size_t w, std::size_t begin, std::size_t end) {
-      Worker<T, D>& worker = work.worker[w];
-      for (std::size_t k = 0; k < group; ++k) worker.positions().set(k, x[std::min(begin + k, end - 1)]);
-      follow(worker, velocity, t, dt, substeps, 1.0);
-      for (std::size_t p = begin; p < end; ++p) x.set(p, worker.positions()[p - begin]);
-    });
-  }
-  /// Substeps are doubled until points of the front come to within Params::path_error of where they belong, as the
-  /// difference between the last two tells.
-  template <class T, int D, class V, class E>
-  int find_substeps(Work<T, D>& work, V&& velocity, double t, double dt, const E& execution) const {
-    constexpr double gain = 1 << S<Columns<D, T>, Serial>::order;  // what a doubling makes the error smaller by
-    const double allowed = params_.path_error * work.front.lattice().spacing();
-    push(work, probe(work, 0), velocity, t, dt, 1, execution);
-    for (int substeps = 1; substeps < most_substeps; substeps *= 2) {
-      const Columns<D, T> x = probe(work, 1);
-      push(work, x, velocity, t, dt, 2 * substeps, execution);
-      double difference = 0.0;
-      for (std::size_t p = 0; p < x.size(); ++p) {
-        for (int d = 0; d < D; ++d) {
-          const double off = std::abs(static_cast<double>(x[p][d] - work.probe[0][d][p]));
-          difference = off <= difference ? difference : off;  // NaN stays
-        }
-      }
-      // Velocities that are not finite are refused where their particles come from.
-      if (!(difference > allowed)) return substeps;
-      if (difference <= (gain - 1.0) * allowed) return 2 * substeps;
-      work.probe[0].swap(work.probe[1]);
-    }
-    throw ValueError(detail::message("paths near the interface are not known to ", params_.path_error,
-                                     " spacings after ", most_substeps,
-                                     " steps of the stepper: the velocity is not smooth; take shorter steps or allow a "
-                                     "larger path_error, or say how many substeps to take"));
-  }
-  /// Takes points of the front, spread over it, as probe number k.
-  template <class T, int D>
-  static Columns<D, T> probe(Work<T, D>& work, std::size_t k) {
-    const Columns<D, T> x = work.front.positions();
-    const std::size_t pitch = std::max<std::size_t>(1, x.size() / probes);
-    const std::size_t count = (x.size() + pitch - 1) / pitch;
-    std::array<T*, D> first;
-    for (int d = 0; d < D; ++d) {
-      work.probe[k][d].resize(count);
-      first[d] = work.probe[k][d].data();
-    }
-    const Columns<D, T> taken(first, count);
-    for (std::size_t p = 0; p < count; ++p) taken.set(p, x[p * pitch]);
-    return taken;
-  }
-  /// Moves a worker's particles by dt along `way` times the velocity, from time t on: way = -1 goes back in time.
-  template <class T, int D, class V>
-  static void follow(Worker<T, D>& worker, V&& velocity, double t, double dt, int substeps, double way) {
-    const double part = dt / substeps;
-    for (int s = 0; s < substeps; ++s) {
-      worker.stepper.step(worker.positions(), s * part, part, [&](const auto& x, double since, auto&& rate) {
-        for (std::size_t p = 0; p < x.size(); ++p) {
-          const Vec<D, T> u = velocity(x[p], t + way * since);
-          rate.set(p, static_cast<T>(way) * u);
-        }
-      });
-    }
-  }
 
   /// phi of the nodes within `radius` of the front that was moved.
   template <class L, class V, class E, class T, int D>
@@ -247,7 +172,7 @@ class Backward {
         [&](NarrowBand<T, D>& band, std::size_t b, std::size_t w) {
           Worker<T, D>& worker = work.worker[w];
           if (!find_near(band, b, work.bins, radius, reach, worker)) return false;
-          come_from(band, b, velocity, t + dt, dt, substeps, worker);
+          come_from(band, b, velocity, t + dt, dt, substeps, work.paths.group(w), worker);
           bring(old, band, b, worker);
           return true;
         },
@@ -279,18 +204,20 @@ class Backward {
   /// Where the particles that arrive at those nodes at `time` were dt ago, in spacings from the first node.
   template <class T, int D, class V>
   static void come_from(const NarrowBand<T, D>& band, std::size_t b, V&& velocity, double time, double dt, int substeps,
-                        Worker<T, D>& worker) {
+                        detail::PathGroup<S, T, D>& particles, Worker<T, D>& worker) {
     const Lattice<D>& lattice = band.lattice();
+    constexpr std::size_t group = detail::PathGroup<S, T, D>::size;
+    const Columns<D, T> at = particles.positions();
     worker.from.resize(worker.node.size());
     for (std::size_t begin = 0; begin < worker.node.size(); begin += group) {
       const std::size_t end = std::min(worker.node.size(), begin + group);
       for (std::size_t k = 0; k < group; ++k) {
         const Vec<D> x = lattice.position(band.values().node(b, worker.node[std::min(begin + k, end - 1)]));
-        for (int d = 0; d < D; ++d) worker.x[d][k] = static_cast<T>(x[d]);
+        for (int d = 0; d < D; ++d) at.column(d)[k] = static_cast<T>(x[d]);
       }
-      follow(worker, velocity, time, dt, substeps, -1.0);
+      particles.follow(velocity, time, dt, substeps, -1.0);
       for (std::size_t p = begin; p < end; ++p) {
-        const Vec<D, T> x = worker.positions()[p - begin];
+        const Vec<D, T> x = at[p - begin];
         require_inside(lattice, x);
         for (int d = 0; d < D; ++d) {
           worker.from[p][d] = static_cast<T>((static_cast<double>(x[d]) - lattice.box().lo[d]) / lattice.spacing());
