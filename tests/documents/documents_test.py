@@ -67,6 +67,18 @@ class Paths(unittest.TestCase):
         for picture in (PROJECT / "docs" / "charts").glob("*.png"):
             self.assertIn(picture.stem + ".", pages, f"no page shows {picture.name}")
 
+    def test_pictures_name_their_programs(self):
+        for page in PAGES:
+            for section in re.split(r"^##+ ", text(page), flags=re.MULTILINE):
+                if picture := re.search(r"!\[[^]]*\]\(([^)]+)\)", section):
+                    program = re.search(r"`(?:bench|examples)/\w+[`\s]|scripts/\w+", section)
+                    self.assertTrue(program, f"{page.name}: no program is named beside {picture.group(1)}")
+
+    def test_pages_of_concepts_are_reached(self):
+        pages = "".join(text(page) for page in PAGES if page.parent.name != "concepts")
+        for page in (PROJECT / "docs" / "concepts").glob("*.md"):
+            self.assertIn(f"concepts/{page.name})", pages, f"no page leads to {page.name}")
+
 
 class Commands(unittest.TestCase):
     def test_presets(self):

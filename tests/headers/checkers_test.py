@@ -13,6 +13,7 @@ sys.path += [str(PROJECT / "scripts"), str(PROJECT / "tests" / "compile_fail")]
 from check_compile_fail import check_source  # noqa: E402
 from check_headers_alone import compile_alone  # noqa: E402
 from check_layering import check  # noqa: E402
+from check_sources_compile import said_of  # noqa: E402
 from count_results import count  # noqa: E402
 from reference import escaped, insert, read_members, sentence_for  # noqa: E402
 
@@ -128,6 +129,15 @@ class CompilerChecks(unittest.TestCase):
         self.assertEqual(check_source(self.flags, source), "")
         source = '// expect: wrong\n#ifdef CAMBIUM_CONTROL\n#endif\nstatic_assert(false, "wrong");\n'
         self.assertIn("control", check_source(self.flags, source))
+
+    def test_source_of_a_build(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, line in (("good", ""), ("bad", "int unused;")):
+                (Path(folder) / f"{name}.cpp").write_text(f"#include <omp.h>\nvoid f() {{ {line} }}\n")
+            said = [said_of({"directory": folder, "command": f"ccache c++ -Wall -fopenmp -o x.o -c {name}.cpp"}, "g++")
+                    for name in ("good", "bad")]
+        self.assertEqual(said[0], "")
+        self.assertIn("unused", said[1])
 
 
 class Results(unittest.TestCase):

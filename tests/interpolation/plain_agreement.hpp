@@ -6,6 +6,7 @@
 #include <boost/test/unit_test.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include <cambium/interpolation.hpp>
 
@@ -52,9 +53,9 @@ std::vector<std::size_t> sorted_order(const cambium::Lattice<D>& lattice, const 
       cell[D - 1 - d] = cambium::detail::AxisLocator<K, double>(lattice, d)(x.array[d][p]).cell;
     }
     if (!by_cell) cell[D - 1] = 0;
-    return cell;
+    return std::pair(cell, p);
   };
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return order;
 }
 

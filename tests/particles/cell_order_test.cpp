@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include <cambium/particles/cell_order.hpp>
 
@@ -79,7 +80,8 @@ BOOST_AUTO_TEST_CASE_TEMPLATE(order_is_that_of_a_stable_sort, C, Cases) {
         expected[p] = static_cast<std::uint32_t>(p);
         cell[p] = cell_of(grid, particles.positions()[p]);
       }
-      std::stable_sort(expected.begin(), expected.end(), [&](auto a, auto b) { return cell[a] < cell[b]; });
+      const auto key = [&](auto p) { return std::pair(cell[p], p); };
+      std::sort(expected.begin(), expected.end(), [&](auto a, auto b) { return key(a) < key(b); });
       BOOST_TEST(std::equal(expected.begin(), expected.end(), order.order().begin(), order.order().end()));
 
       std::vector<std::uint32_t> starts(grid.size() + 1, 0);

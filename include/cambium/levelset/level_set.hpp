@@ -21,9 +21,8 @@ namespace cambium {
 /// A closed interface as the zero set of its signed distance phi, phi < 0 inside, kept in a narrow band.
 ///
 /// \tparam Reinit   how phi is made a distance, see Reinitialisation
-/// \tparam Storage  Sparse: values near the interface alone. Dense: also a field with a value for every node, kept up
-/// to
-///                  date, for what works on the whole lattice
+/// \tparam Storage  Sparse: values near the interface alone. Dense: also a field with a value for every node, kept
+///                  up to date, for what works on the whole lattice
 template <class Reinit = ClosestPoint, int D = 3, class T = double, class Storage = Sparse>
 class LevelSet {
   static_assert((check_reinitialisation<Reinit>(), true));
@@ -45,12 +44,13 @@ class LevelSet {
   /// From a function of the position, of any scaling, negative inside: phi := distance to its zero set. It is called by
   /// several threads, at every node of the lattice, or, if it bounds its slope (as shapes do), near its zero set only.
   /// \throws InterfaceError if there is no zero crossing, one within `wall_distance` nodes of a bounded face, or a
-  /// shape
-  ///         cut off by a periodic face; ValueError if f is found to be not finite, or the band is too thin for the
-  ///         stencils of the reinitialisation
+  ///         shape cut off by a periodic face; ValueError if f is found to be not finite, or the band is too thin for
+  ///         the stencils of the reinitialisation
   template <class F, Execution E = OpenMP>
   LevelSet(const Lattice<D>& lattice, F&& f, const Params& params = {}, const E& execution = {})
       : LevelSet(lattice, params) {
+    static_assert(std::is_invocable_r_v<double, F&, const Vec<D>&>,
+                  "cambium: a level set is made from a function of a position with as many dimensions as the lattice");
     sample(f, execution);
     reinitialise(execution);
   }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <cambium/kernels/m4_prime.hpp>
@@ -168,8 +169,8 @@ class Markers {
       keep(p, to, escaped(p));
       if (!escaped(p)) others.push_back(p);
     }
-    const auto gap = [&](std::size_t p) { return std::abs(phi_[p]) - std::abs(radius_[p]); };
-    std::stable_sort(others.begin(), others.end(), [&](std::size_t p, std::size_t q) { return gap(p) < gap(q); });
+    const auto gap = [&](std::size_t p) { return std::pair(std::abs(phi_[p]) - std::abs(radius_[p]), p); };
+    std::sort(others.begin(), others.end(), [&](std::size_t p, std::size_t q) { return gap(p) < gap(q); });
     others.resize(std::min(others.size(), static_cast<std::size_t>(wanted)));
     for (const std::size_t p : others) keep(p, to, true);
     return static_cast<int>(others.size());
