@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include <cambium/core/lattice.hpp>
 #include <cambium/levelset/surface.hpp>
 
 namespace tumour {
@@ -24,13 +22,6 @@ void write_whole(const std::filesystem::path& path, const std::string& text);
 
 /// Closed curves: component,x,y and the data, point after point. \throws cambium::FileError
 void write_curves(const std::filesystem::path& path, const cambium::Surface<2>& surface,
-                  const std::vector<Named>& data);
-/// A surface for ParaView (VTP, as text). \throws cambium::FileError
-void write_surface(const std::filesystem::path& path, const cambium::Surface<3>& surface,
-                   const std::vector<Named>& data);
-/// Values at the nodes of a lattice for ParaView (VTI, as text). \throws cambium::FileError
-template <int D>
-void write_fields(const std::filesystem::path& path, const cambium::Lattice<D>& lattice,
                   const std::vector<Named>& data);
 
 }  // namespace tumour

@@ -15,6 +15,7 @@
 #include "interface_pressure.hpp"
 #include "options.hpp"
 #include "series.hpp"
+#include "vtk_files.hpp"
 
 namespace tumour {
 

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#define BOOST_TEST_MODULE paraview_files
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <tuple>
+#include <unistd.h>
+#include <vector>
+#include <vtkDataArray.h>
+#include <vtkIdList.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLImageDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+
+#include <cambium/io/npy.hpp>
+#include <cambium/levelset/level_set.hpp>
+#include <cambium/levelset/shapes/ball.hpp>
+#include <cambium/levelset/surface.hpp>
+
+#include "vtk_files.hpp"
+
+using namespace cambium;
+
+namespace {
+
+/// A folder that is gone with the test.
+struct Folder {
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("paraview_files_" + std::to_string(::getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+template <class Reader>
+void read(Reader& reader, const std::filesystem::path& path) {
+  reader.SetFileName(path.c_str());
+  reader.Update();
+  BOOST_REQUIRE(reader.GetErrorCode() == 0);
+}
+void check_values(vtkDataSet& set, const tumour::Named& item) {
+  vtkDataArray* const values = set.GetPointData()->GetArray(item.name.c_str());
+  BOOST_REQUIRE(values);
+  BOOST_REQUIRE(values->GetNumberOfTuples() == static_cast<vtkIdType>(item.values.size()));
+  BOOST_TEST(values->GetNumberOfComponents() == 1);
+  for (std::size_t i = 0; i < item.values.size(); ++i) {
+    BOOST_REQUIRE(values->GetComponent(static_cast<vtkIdType>(i), 0) == item.values[i]);
+  }
+}
+std::vector<double> numbers(std::size_t count, double scale) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < count; ++i) values.push_back(scale / static_cast<double>(i + 3));
+  return values;
+}
+
+/// Not a cube, and not at the origin: axes and corners cannot be taken for each other.
+template <int D>
+Lattice<D> oblong() {
+  Box<D> box{Vec<D>::constant(-1.0), Vec<D>::constant(1.0)};
+  box.hi[0] = 2.0;
+  box.lo[1] = -1.5;
+  return Lattice<D>::bounded_box(box, 24);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(surfaces_come_back_as_they_are) {
+  const LevelSet<ClosestPoint, 3> level_set(oblong<3>(), Ball<3>({0.3, -0.2, 0.0}, 0.6));
+  const auto surface = extract_surface(level_set.band());
+  const std::vector<tumour::Named> data{{"pressure", numbers(surface.vertices.size(), 2.0)},
+                                        {"curvature", surface.curvatures}};
+  const Folder folder;
+  tumour::write_surface(folder.path / "ball.vtp", surface, data);
+  const vtkNew<vtkXMLPolyDataReader> reader;
+  read(*reader, folder.path / "ball.vtp");
+  vtkPolyData& set = *reader->GetOutput();
+  BOOST_REQUIRE(set.GetNumberOfPoints() == static_cast<vtkIdType>(surface.vertices.size()));
+  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+    for (int d = 0; d < 3; ++d) BOOST_REQUIRE(set.GetPoint(static_cast<vtkIdType>(i))[d] == surface.vertices[i][d]);
+  }
+  BOOST_REQUIRE(set.GetNumberOfPolys() == static_cast<vtkIdType>(surface.elements.size()));
+  const vtkNew<vtkIdList> corners;
+  for (std::size_t i = 0; i < surface.elements.size(); ++i) {
+    set.GetCellPoints(static_cast<vtkIdType>(i), corners);
+    BOOST_REQUIRE(corners->GetNumberOfIds() == 3);
+    for (int k = 0; k < 3; ++k) {
+      BOOST_REQUIRE(corners->GetId(k) == static_cast<vtkIdType>(surface.elements[i][static_cast<std::size_t>(k)]));
+    }
+  }
+  for (const auto& item : data) check_values(set, item);
+}
+
+using Dimensions = std::tuple<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+
+BOOST_AUTO_TEST_CASE_TEMPLATE(fields_come_back_on_their_lattice, N, Dimensions) {
+  constexpr int D = N::value;
+  const auto lattice = oblong<D>();
+  const std::vector<tumour::Named> data{{"phi", numbers(lattice.size(), 1.0)},
+                                        {"nutrient", numbers(lattice.size(), 7.0)}};
+  const Folder folder;
+  tumour::write_fields(folder.path / "fields.vti", lattice, data);
+  const vtkNew<vtkXMLImageDataReader> reader;
+  read(*reader, folder.path / "fields.vti");
+  vtkImageData& set = *reader->GetOutput();
+  BOOST_REQUIRE(set.GetNumberOfPoints() == static_cast<vtkIdType>(lattice.size()));
+  for (std::size_t i = 0; i < lattice.size(); ++i) {
+    const Vec<D> x = lattice.position(lattice.node(i));
+    for (int d = 0; d < D; ++d) BOOST_REQUIRE(std::abs(set.GetPoint(static_cast<vtkIdType>(i))[d] - x[d]) < 1e-14);
+  }
+  for (const auto& item : data) check_values(set, item);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_said_and_leaves_the_file_as_it_was) {
+  const auto lattice = oblong<2>();
+  const std::vector<tumour::Named> data{{"phi", numbers(lattice.size(), 1.0)}};
+  const Folder folder;
+  BOOST_CHECK_THROW(tumour::write_fields(folder.path / "nowhere" / "fields.vti", lattice, data), FileError);
+  BOOST_TEST(std::filesystem::is_empty(folder.path));
+}
