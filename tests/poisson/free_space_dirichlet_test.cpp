@@ -3,12 +3,13 @@
 #define BOOST_TEST_MODULE free_space_dirichlet
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <limits>
 #include <support/free_space.hpp>
 #include <support/order.hpp>
 #include <tuple>
 
 #include <cambium/poisson/free_space_dirichlet.hpp>
+
+#include "poisson/bad_input.hpp"
 
 using cambium::Field;
 using cambium::FreeSpaceConvolution;
@@ -81,13 +82,5 @@ BOOST_AUTO_TEST_CASE(inside_the_difference_equations_hold) {
 }
 
 BOOST_AUTO_TEST_CASE(bad_input_is_refused_and_changes_nothing) {
-  BOOST_CHECK_THROW(FreeSpaceDirichlet<2>(Lattice<2>::periodic_box(cambium::Box<2>::cube(), 8)), cambium::LatticeError);
-  const auto lattice = Lattice<2>::bounded_box(cambium::Box<2>::cube(), 8);
-  FreeSpaceDirichlet<2> poisson(lattice);
-  Field<double, 2> f(lattice), u(lattice, 9.0), other(Lattice<2>::bounded_box(cambium::Box<2>::cube(2.0), 8));
-  BOOST_CHECK_THROW(poisson.solve(f, other), cambium::SizeError);
-  BOOST_CHECK_THROW(poisson.solve(other, u), cambium::SizeError);
-  f[11] = std::numeric_limits<double>::quiet_NaN();
-  BOOST_CHECK_THROW(poisson.solve(f, u), cambium::ValueError);
-  BOOST_TEST(u[5] == 9.0);
+  support::check_bad_input_is_refused<FreeSpaceDirichlet<2>, 2>();
 }
