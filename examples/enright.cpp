@@ -18,6 +18,8 @@
 #include <cambium/io.hpp>
 #include <cambium/levelset.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -102,7 +104,7 @@ Result run(std::ptrdiff_t cells, const Options& options, const std::string& fold
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::vector<std::ptrdiff_t> cells{64};
   Options options;
   std::string json;
@@ -112,7 +114,7 @@ int main(int argc, char** argv) {
   app.add_option("--steps", options.steps, "steps of the level set, an even number")->check(CLI::PositiveNumber);
   app.add_option("--substeps", options.substeps, "Runge-Kutta steps in each of them; 0 for as many as the paths ask")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--json", json, "write the figures to this file");
+  app.add_option("--json", json, "write the figures to this file")->check(command_line::writable_file());
   app.add_option("--fields", folder, "write the surfaces of the last run to this folder, for scripts/draw_enright.py");
   CLI11_PARSE(app, argc, argv);
 
@@ -141,4 +143,6 @@ int main(int argc, char** argv) {
   if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
   if (!good) std::printf("this is worse than the method should be\n");
   return good ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

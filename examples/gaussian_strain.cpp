@@ -18,6 +18,8 @@
 
 #include <cambium/cambium.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -116,13 +118,13 @@ Result run(std::ptrdiff_t cells, const std::string& folder, int pictures = 3) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::vector<std::ptrdiff_t> cells{32, 64};
   std::string json;
   std::string folder;
   CLI::App app("A Gaussian patch in a turning and straining flow, diffused by particle strength exchange");
   app.add_option("--cells", cells, "cells along an axis, one run for each, from coarse to fine");
-  app.add_option("--json", json, "write the errors to this file");
+  app.add_option("--json", json, "write the errors to this file")->check(command_line::writable_file());
   app.add_option("--fields", folder, "write the fields of the last run to this folder, for scripts/draw_gaussian.py");
   CLI11_PARSE(app, argc, argv);
 
@@ -149,4 +151,6 @@ int main(int argc, char** argv) {
   if (!accurate) std::printf("the error does not fall as the fourth power of the spacing\n");
   if (!conserved) std::printf("the total is not conserved\n");
   return accurate && conserved ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

@@ -21,6 +21,8 @@
 
 #include <cambium/cambium.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -160,13 +162,13 @@ bool study(const std::vector<std::ptrdiff_t>& cells, const std::string& folder, 
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::vector<std::ptrdiff_t> cells{64, 128};
   std::string json;
   std::string folder;
   CLI::App app("Viscous vortices by vortex particles against exact solutions in a periodic box");
   app.add_option("--cells", cells, "cells along an axis, one run for each, from coarse to fine");
-  app.add_option("--json", json, "write the errors to this file");
+  app.add_option("--json", json, "write the errors to this file")->check(command_line::writable_file());
   app.add_option("--fields", folder, "write the fields of the last runs to this folder, for scripts/draw_vortices.py");
   CLI11_PARSE(app, argc, argv);
 
@@ -177,4 +179,6 @@ int main(int argc, char** argv) {
   if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", table}}.dump(2) << '\n';
   if (!round || !square) std::printf("the error does not fall as the fourth power of the spacing\n");
   return round && square ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

@@ -19,6 +19,8 @@
 #include <cambium/levelset.hpp>
 #include <cambium/poisson.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -134,12 +136,12 @@ nlohmann::json run(std::ptrdiff_t cells, const std::string& folder, bool& good) 
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::vector<std::ptrdiff_t> cells{64};
   std::string json, folder;
   CLI::App app("A drop at rest under surface tension");
   app.add_option("--cells", cells, "cells along an axis, one run in 2D and one in 3D for each");
-  app.add_option("--json", json, "write the figures to this file");
+  app.add_option("--json", json, "write the figures to this file")->check(command_line::writable_file());
   app.add_option("--fields", folder, "write the last run in 2D to this folder, for scripts/draw_laplace_young.py");
   CLI11_PARSE(app, argc, argv);
 
@@ -153,4 +155,6 @@ int main(int argc, char** argv) {
   if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
   if (!good) std::printf("this is worse than the method should be\n");
   return good ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

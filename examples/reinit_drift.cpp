@@ -23,6 +23,8 @@
 #include <cambium/io.hpp>
 #include <cambium/levelset.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -204,7 +206,7 @@ nlohmann::json as_json(const std::string& policy, const std::string& scene, cons
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   Options options;
   bool compare = false;
   std::string json;
@@ -215,7 +217,7 @@ int main(int argc, char** argv) {
   app.add_option("--scenes", chosen, "which of the scenes")->check(CLI::IsMember(chosen));
   app.add_flag("--comparators", compare, "also by the other reinitialisations");
   app.add_flag("--all-calls", options.all, "go on calling where phi rests");
-  app.add_option("--json", json, "write the figures to this file");
+  app.add_option("--json", json, "write the figures to this file")->check(command_line::writable_file());
   app.add_option("--fields", options.folder,
                  "write sections of the ball to this folder, for scripts/draw_reinit_drift.py");
   CLI11_PARSE(app, argc, argv);
@@ -247,4 +249,6 @@ int main(int argc, char** argv) {
   if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
   if (!good) std::printf("closest points move the interface more than they should\n");
   return good ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

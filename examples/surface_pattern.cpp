@@ -28,6 +28,8 @@
 #include <cambium/models.hpp>
 #include <cambium/reaction.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 using nlohmann::json;
 
@@ -223,7 +225,7 @@ json dumbbell(const Options& o) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const std::map<std::string, std::function<json(const Options&)>> scenes{
       {"six_spots", six_spots},
       {"sphere_spots",
@@ -266,7 +268,7 @@ int main(int argc, char** argv) {
   app.add_option("--end", options.end, "time to run to; 0: the scene's own");
   app.add_option("--pictures", options.pictures, "pictures on the way, the last at the end");
   app.add_option("--fields", options.folder, "write surfaces to this folder, for scripts/draw_surface_pattern.py");
-  app.add_option("--json", file, "write the figures to this file");
+  app.add_option("--json", file, "write the figures to this file")->check(command_line::writable_file());
   CLI11_PARSE(app, argc, argv);
   if (!options.folder.empty()) std::filesystem::create_directories(options.folder);
   json runs = json::array();
@@ -290,4 +292,6 @@ int main(int argc, char** argv) {
   if (!file.empty()) std::ofstream(file) << json{{"runs", runs}}.dump(1) << '\n';
   if (!good) std::printf("a scene is worse than it should be\n");
   return good ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

@@ -22,6 +22,8 @@
 
 #include <cambium/cambium.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -129,7 +131,7 @@ Errors run(std::ptrdiff_t cells, bool remeshed, const std::string& folder) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   const std::map<std::string, std::function<Errors(std::ptrdiff_t, bool, const std::string&)>> kernels{
       {"m4prime", run<M4Prime>}, {"m6", run<M6>}};
   std::vector<std::ptrdiff_t> cells{64, 128};
@@ -139,7 +141,7 @@ int main(int argc, char** argv) {
   CLI::App app("A blob wound up by a vortex and unwound again, with and without remeshing");
   app.add_option("--cells", cells, "cells along an axis, one run for each, from coarse to fine");
   app.add_option("--kernel", kernel, "remeshing kernel")->check(CLI::IsMember(kernels));
-  app.add_option("--json", json, "write the errors to this file");
+  app.add_option("--json", json, "write the errors to this file")->check(command_line::writable_file());
   app.add_option("--fields", folder, "write the fields of the last run to this folder, for scripts/draw_swirl.py");
   CLI11_PARSE(app, argc, argv);
 
@@ -171,4 +173,6 @@ int main(int argc, char** argv) {
   const bool stays = scattered.half > 0.8 && scattered.half > 1.2 * remeshed.half;
   if (!falls || !stays) std::printf("this is not what remeshing should do\n");
   return falls && stays ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

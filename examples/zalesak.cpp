@@ -24,6 +24,8 @@
 #include <cambium/io.hpp>
 #include <cambium/levelset.hpp>
 
+#include "command_line.hpp"
+
 using namespace cambium;
 
 namespace {
@@ -165,7 +167,7 @@ bool is_good(const Scene& scene, std::ptrdiff_t cells, const Result& result) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   Options options;
   std::vector<std::ptrdiff_t> cells_of_disk{100};
   std::vector<std::ptrdiff_t> cells_of_vortex{128, 256};
@@ -180,7 +182,7 @@ int main(int argc, char** argv) {
   app.add_option("--substeps", options.substeps, "Runge-Kutta steps in each step, 0 for as many as the paths ask")
       ->check(CLI::NonNegativeNumber);
   app.add_flag("--comparators", compare, "also by the other ways to advance a level set");
-  app.add_option("--json", json, "write the figures to this file");
+  app.add_option("--json", json, "write the figures to this file")->check(command_line::writable_file());
   app.add_option("--fields", folder,
                  "write the curves of the first run of each scene to this folder, for "
                  "scripts/draw_zalesak.py");
@@ -221,4 +223,6 @@ int main(int argc, char** argv) {
   if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
   if (!good) std::printf("this is worse than the method should be\n");
   return good ? 0 : 1;
+} catch (const std::exception& error) {
+  return command_line::failed(error);
 }

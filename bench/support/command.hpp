@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace bench {
@@ -16,7 +17,10 @@ struct Command {
     app.add_flag("--quick", quick, "coarse lattices, to see that it runs");
   }
   void write(const nlohmann::json& results) const {
-    if (!json.empty()) std::ofstream(json) << results.dump(1) << '\n';
+    if (json.empty()) return;
+    std::ofstream file(json);
+    file << results.dump(1) << std::endl;
+    if (!file) throw std::runtime_error("cannot write " + json + ": check that its folder exists and has space left");
   }
 
   CLI::App app;

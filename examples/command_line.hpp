@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Cambium authors
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <string>
+
+namespace command_line {
+
+/// A check of an option that names a file to be written: known before the work begins, not when it is done.
+inline CLI::Validator writable_file() {
+  const auto complaint = [](const std::string& path) {
+    if (std::ofstream(path, std::ios::app)) return std::string();
+    return "cannot write " + path + ": check that its folder exists and may be written to";
+  };
+  return {complaint, ""};
+}
+
+/// What main returns for an error that ends the program, having said what it is.
+inline int failed(const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
+
+}  // namespace command_line
