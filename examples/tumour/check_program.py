@@ -80,6 +80,9 @@ def check_ends():
     assert "reached the box" in report["ended"] and report["frames"][-1]["t"] == report["t"] > 0, report
     report = grow("extinct", *small, "--box", 6, "--shape", "ellipsoid:0,1", "--A", 3, "--gamma", 0.1, "--at", 5)
     assert "died out" in report["ended"] and len(report["frames"]) == 1, report
+    before = report_of(folder / "extinct")
+    run("--resume", folder / "extinct", "--at", "5,6", "--no-page")  # nothing more happens
+    assert report_of(folder / "extinct") == before
 
 
 def check_image():

@@ -94,6 +94,7 @@ class Growing {
   /// Empty, or why the run is over before.
   std::string step_to(double time) {
     while (time - tumour_.time() > 1e-12 * time) {
+      if (tumour_.extinct()) return "the tumour has died out";
       if (stop_.arrived()) return "stopped by a signal";
       if (own_.steps == most_steps_) return "a few steps were asked for";
       // The last two steps before a picture are of about one length: no tiny ones.

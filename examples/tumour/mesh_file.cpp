@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
@@ -16,6 +14,7 @@
 #include <cambium/io/npy.hpp>
 
 #include "files.hpp"
+#include "mesh_source.hpp"
 
 namespace tumour {
 namespace {
@@ -24,44 +23,9 @@ using cambium::FileError;
 using cambium::TriangleMesh;
 using cambium::Vec;
 
-/// The bytes of a file, and what is wrong with them.
-class Source {
- public:
-  explicit Source(const std::filesystem::path& path) : path_(path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!in) refuse("cannot be read: check that it is there");
-    bytes_.assign(std::istreambuf_iterator<char>(in), {});
-  }
-  const std::string& bytes() const { return bytes_; }
-  [[noreturn]] void refuse(const std::string& why) const { throw FileError(path_.string() + ": " + why); }
-  template <class V>
-  V take(std::size_t& at) const {
-    if (at + sizeof(V) > bytes_.size()) refuse("ends before all that it announces: is it cut off?");
-    V value;
-    std::memcpy(&value, bytes_.data() + at, sizeof(V));
-    at += sizeof(V);
-    return value;
-  }
-  /// \param polygon  numbers of vertices, cut into triangles that share the first
-  void add_polygon(const std::vector<std::ptrdiff_t>& polygon, TriangleMesh& mesh) const {
-    if (polygon.size() < 3) refuse("has a face of less than three vertices");
-    for (const std::ptrdiff_t k : polygon) {
-      if (k < 0 || static_cast<std::size_t>(k) >= mesh.vertices.size()) {
-        refuse("has a face with vertex " + std::to_string(k) + " of " + std::to_string(mesh.vertices.size()));
-      }
-    }
-    const auto number = [&](std::size_t k) { return static_cast<std::size_t>(polygon[k]); };
-    for (std::size_t k = 2; k < polygon.size(); ++k) mesh.facets.push_back({number(0), number(k - 1), number(k)});
-  }
-
- private:
-  std::filesystem::path path_;
-  std::string bytes_;
-};
-
 constexpr std::size_t stl_head = 84, stl_facet = 50;
 
-TriangleMesh read_stl(const Source& source) {
+TriangleMesh read_stl(const MeshSource& source) {
   std::vector<Triangle> triangles;
   const std::string& bytes = source.bytes();
   std::size_t at = 80;
@@ -97,7 +61,7 @@ TriangleMesh read_stl(const Source& source) {
   return join(triangles);
 }
 
-TriangleMesh read_obj(const Source& source) {
+TriangleMesh read_obj(const MeshSource& source) {
   TriangleMesh mesh;
   std::istringstream in(source.bytes());
   for (std::string line; std::getline(in, line);) {
@@ -121,110 +85,6 @@ TriangleMesh read_obj(const Source& source) {
   return mesh;
 }
 
-/// Numbers of a PLY file, as text or bytes, by the name of their type.
-class PlyNumbers {
- public:
-  PlyNumbers(const Source& source, std::size_t at, bool text)
-      : source_(source), text_(text), at_(at), in_(text ? source.bytes().substr(at) : std::string()) {}
-
-  double next(const std::string& type) {
-    if (text_) {
-      double value = 0.0;
-      if (!(in_ >> value)) source_.refuse("ends before all that it announces: is it cut off?");
-      return value;
-    }
-    if (type == "char" || type == "int8") return source_.take<std::int8_t>(at_);
-    if (type == "uchar" || type == "uint8") return source_.take<std::uint8_t>(at_);
-    if (type == "short" || type == "int16") return source_.take<std::int16_t>(at_);
-    if (type == "ushort" || type == "uint16") return source_.take<std::uint16_t>(at_);
-    if (type == "int" || type == "int32") return source_.take<std::int32_t>(at_);
-    if (type == "uint" || type == "uint32") return source_.take<std::uint32_t>(at_);
-    if (type == "float" || type == "float32") return static_cast<double>(source_.take<float>(at_));
-    if (type == "double" || type == "float64") return source_.take<double>(at_);
-    source_.refuse("has values of the unknown type '" + type + "'");
-  }
-
- private:
-  const Source& source_;
-  bool text_;
-  std::size_t at_;
-  std::istringstream in_;
-};
-
-struct PlyProperty {
-  std::string name, type, count_type;  ///< the last is empty but for lists
-};
-struct PlyElement {
-  std::string name;
-  std::size_t count = 0;
-  std::vector<PlyProperty> properties;
-};
-
-/// \param format  of what follows \return elements, and where they begin
-std::vector<PlyElement> read_ply_head(const Source& source, std::string& format, std::size_t& begin) {
-  std::istringstream in(source.bytes());
-  std::vector<PlyElement> elements;
-  std::string line;
-  if (!std::getline(in, line) || line.rfind("ply", 0) != 0) source.refuse("is no PLY file: it does not begin with ply");
-  while (std::getline(in, line)) {
-    std::istringstream words(line);
-    std::string word;
-    words >> word;
-    if (word == "format") words >> format;
-    if (word == "element") words >> elements.emplace_back().name >> elements.back().count;
-    if (word == "property" && !elements.empty()) {
-      PlyProperty property;
-      words >> property.type;
-      if (property.type == "list") words >> property.count_type >> property.type;
-      words >> property.name;
-      elements.back().properties.push_back(property);
-    }
-    if (words.fail()) source.refuse("line '" + line + "' has not all that it should have");
-    if (word != "end_header") continue;
-    if (format != "ascii" && format != "binary_little_endian") {
-      source.refuse("has format '" + format + "': save it as ascii or binary_little_endian");
-    }
-    if (in.eof()) source.refuse("ends with its header: is it cut off?");
-    begin = static_cast<std::size_t>(in.tellg());
-    return elements;
-  }
-  source.refuse("has no end_header: is it cut off?");
-}
-
-TriangleMesh read_ply(const Source& source) {
-  std::string format;
-  std::size_t begin = 0;
-  const auto elements = read_ply_head(source, format, begin);
-  PlyNumbers numbers(source, begin, format == "ascii");
-  TriangleMesh mesh;
-  for (const PlyElement& element : elements) {
-    // What takes no bytes would have no end.
-    if (element.properties.empty() && element.count > 0) source.refuse("has elements without properties");
-    for (std::size_t k = 0; k < element.count; ++k) {
-      Vec<3> x = Vec<3>::constant(std::nan(""));
-      std::vector<std::ptrdiff_t> polygon;
-      for (const PlyProperty& property : element.properties) {
-        const double count = property.count_type.empty() ? 1.0 : numbers.next(property.count_type);
-        for (double i = 0.0; i < count; ++i) {
-          const double value = numbers.next(property.type);
-          const std::size_t axis = std::string("xyz").find(property.name);
-          if (property.name.size() == 1 && axis < 3) x[static_cast<int>(axis)] = value;
-          if (property.name.rfind("vertex_ind", 0) != 0) continue;
-          if (!(value >= 0.0 && value < 1e15)) source.refuse("has a face with a vertex that is no number of one");
-          polygon.push_back(static_cast<std::ptrdiff_t>(value));
-        }
-      }
-      if (element.name == "vertex") mesh.vertices.push_back(x);
-      if (element.name == "face") source.add_polygon(polygon, mesh);
-    }
-  }
-  return mesh;
-}
-
-template <class V>
-void put(std::string& bytes, V value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-}
 std::string stl_of(const TriangleMesh& mesh) {
   std::string bytes(stl_head - 4, ' ');
   put(bytes, static_cast<std::uint32_t>(mesh.facets.size()));
@@ -245,20 +105,6 @@ std::string obj_of(const TriangleMesh& mesh) {
   for (const auto& f : mesh.facets) out << "f " << f[0] + 1 << ' ' << f[1] + 1 << ' ' << f[2] + 1 << '\n';
   return out.str();
 }
-std::string ply_of(const TriangleMesh& mesh) {
-  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
-                      "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-                      std::to_string(mesh.facets.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const auto& x : mesh.vertices) {
-    for (int d = 0; d < 3; ++d) put(bytes, x[d]);
-  }
-  for (const auto& f : mesh.facets) {
-    put(bytes, std::uint8_t{3});
-    for (const auto v : f) put(bytes, static_cast<std::int32_t>(v));
-  }
-  return bytes;
-}
-
 }  // namespace
 
 TriangleMesh join(const std::vector<Triangle>& triangles) {
@@ -278,7 +124,7 @@ TriangleMesh join(const std::vector<Triangle>& triangles) {
 }
 
 TriangleMesh read_mesh(const std::filesystem::path& path) {
-  const Source source(path);
+  const MeshSource source(path);
   const auto ending = path.extension();
   TriangleMesh mesh = ending == ".stl" ? read_stl(source) : ending == ".obj" ? read_obj(source) : read_ply(source);
   for (const auto& x : mesh.vertices) {

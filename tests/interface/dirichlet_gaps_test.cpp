@@ -104,3 +104,19 @@ BOOST_AUTO_TEST_CASE(thinner_ones_have_some) {
     BOOST_TEST(found.largest < 5.0);
   }
 }
+
+BOOST_AUTO_TEST_CASE(parts_and_gaps_of_one_node_are_counted) {
+  const auto lattice = Lattice<2>::bounded_box(Box<2>::cube(), 40);
+  const double h = lattice.spacing();
+  const auto unresolved = [&](auto&& strip) {
+    const auto shape = [&](const Vec<2>& x) {
+      return std::max(strip(std::abs(x[1] - 0.5)), std::abs(x[0] - 0.5) - 0.31);
+    };
+    const LevelSet<ClosestPoint, 2> level_set(lattice, shape);
+    return Dirichlet<2>(level_set.band()).unresolved();
+  };
+  BOOST_TEST(unresolved([h](double y) { return y - 6.0 * h; }) == 0);
+  BOOST_TEST(unresolved([h](double y) { return y - 0.8 * h; }) == 25);  // nodes of the row y = 0.5
+  BOOST_TEST(unresolved([h](double y) { return std::max(0.8 * h - y, y - 6.0 * h); }) == 25);
+  BOOST_TEST(unresolved([h](double y) { return std::max(1.8 * h - y, y - 6.0 * h); }) == 0);
+}

@@ -71,6 +71,20 @@ class Dirichlet {
   const Params& params() const { return params_; }
   /// Nodes where c is sought.
   std::size_t unknowns() const { return static_cast<std::size_t>(levels_.finest().count); }
+  /// Places where the lattice does not resolve the domain: nodes of it between two crossings along an axis, and single
+  /// nodes beyond it between two of its own.
+  std::size_t unresolved() const {
+    const auto& domain = levels_.domain();
+    std::size_t count = 0;
+    for (const auto& node : domain.nodes) {
+      for (std::size_t k = 1; k < 2 * D; k += 2) {
+        if (node.leg[k] < 0.0) continue;
+        if (node.leg[k ^ 1] >= 0.0) ++count;
+        if (domain.in_domain(domain.neighbour(domain.neighbour(node.node, k), k))) ++count;
+      }
+    }
+    return count;
+  }
   /// True if c is sought or given at a node.
   bool in_domain(const Index<D>& node) const { return levels_.domain().in_domain(node); }
 

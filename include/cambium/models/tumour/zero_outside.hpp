@@ -52,7 +52,7 @@ class InsidePressure {
     }
     for_each(execution_, p.size(), [&](std::size_t i) { p[i] = grown_[i] + dropped_[i]; });
   }
-  std::size_t unresolved() const { return 0; }
+  std::size_t unresolved() const { return solver_ ? solver_->unresolved() : 0; }
   /// The solutions are the first guesses of the next.
   template <class Self, class Archive>
   static void visit(Self& self, Archive& archive) {
