@@ -27,6 +27,7 @@ std::vector<Named> verifications() {
         {"--ellipse", "the ellipse of (11.72) in the plane against them", bench::verify_ellipse},
 #if !BENCH_SMOKE
         {"--rates", "rates of growth of small waves", bench::verify_rates},
+        {"--speed", "mean speed of balls", bench::verify_speed},
         {"--radius", "R(1) of discs and balls", bench::verify_radius},
         {"--relaxation", "surface tension alone, in space", bench::verify_relaxation},
         {"--box-size", "one tumour in boxes of 24 and 48", bench::verify_box},

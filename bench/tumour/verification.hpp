@@ -32,6 +32,8 @@ nlohmann::json verify_reference(const TumourOptions& options);
 nlohmann::json verify_ellipse(const TumourOptions& options);
 /// Rates of growth of waves on balls, and of their decay without growth.
 nlohmann::json verify_rates(const TumourOptions& options);
+/// Mean error of the speed of balls, of growth alone and of surface tension alone.
+nlohmann::json verify_speed(const TumourOptions& options);
 /// R(t) of discs and balls, with and without a core.
 nlohmann::json verify_radius(const TumourOptions& options);
 /// Surface tension alone: a ball at rest, and a wave of l = 2 that decays.
