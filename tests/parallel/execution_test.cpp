@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(reduction_keeps_the_order_of_what_does_not_commute) {
 
 // More pieces than wait at a time: still the fold of the folds of 1024 items each, and nothing is allocated for it.
 BOOST_AUTO_TEST_CASE(reduction_of_many_pieces_has_the_bits_of_the_plain_fold) {
-  constexpr std::size_t count = 300 * 1024 + 77;
+  constexpr std::size_t count = 4200 * 1024 + 77;
   const auto term = [](std::size_t i) { return 1.0 / (1.0 + static_cast<double>(i)); };
   double expected = 0.0;
   for (std::size_t begin = 0; begin < count; begin += 1024) {
