@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtk_files.hpp"
 
+#include <string>
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
+#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -26,16 +29,45 @@ void add_data(vtkDataSet& set, const std::vector<Named>& data) {
     set.GetPointData()->AddArray(values);
   }
 }
+/// What objects of the library complain of, which they then do not print.
+class Complaints {
+ public:
+  Complaints() {
+    command_->SetClientData(&text_);
+    command_->SetCallback([](vtkObject*, unsigned long, void* text, void* said) {
+      if (said) *static_cast<std::string*>(text) += static_cast<const char*>(said);
+    });
+  }
+  ~Complaints() { command_->SetCallback(nullptr); }  // objects may live longer
+  Complaints(const Complaints&) = delete;
+  Complaints& operator=(const Complaints&) = delete;
+  void hear(vtkObject& object) {
+    object.AddObserver(vtkCommand::ErrorEvent, command_);
+    object.AddObserver(vtkCommand::WarningEvent, command_);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+  vtkNew<vtkCallbackCommand> command_;
+};
+
 /// Binary, compressed. To a string first: files appear whole or not at all.
 template <class Writer>
 void write(const std::filesystem::path& path, vtkDataSet& set) {
+  Complaints complaints;
   const vtkNew<Writer> writer;
+  complaints.hear(set);
+  complaints.hear(*writer);
+  complaints.hear(*writer->GetExecutive());
   writer->SetInputData(&set);
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->WriteToOutputStringOn();
-  if (writer->Write() != 1) {
-    throw cambium::FileError(cambium::detail::message("the VTK library cannot write ", path.string()));
+  // Some errors are only told: Write() returns 1 for data that do not fit, too.
+  if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !complaints.text().empty()) {
+    throw cambium::FileError(cambium::detail::message("the VTK library cannot write ", path.string(),
+                                                      ", which is as it was before: ", complaints.text()));
   }
   write_whole(path, writer->GetOutputString());
 }
