@@ -80,9 +80,11 @@ def check_ends():
     assert "reached the box" in report["ended"] and report["frames"][-1]["t"] == report["t"] > 0, report
     report = grow("extinct", *small, "--box", 6, "--shape", "ellipsoid:0,1", "--A", 3, "--gamma", 0.1, "--at", 5)
     assert "died out" in report["ended"] and len(report["frames"]) == 1, report
-    before = report_of(folder / "extinct")
-    run("--resume", folder / "extinct", "--at", "5,6", "--no-page")  # nothing more happens
-    assert report_of(folder / "extinct") == before
+    for name, times in ("box", 9), ("extinct", 9), ("extinct", 1e-3):  # what is over stays so, and says so again
+        before, series = report_of(folder / name), (folder / name / "series.csv").read_bytes()
+        said = run("--resume", folder / name, "--at", times, "--no-page")
+        assert before["ended"] in said and report_of(folder / name) == before, (name, said)
+        assert (folder / name / "series.csv").read_bytes() == series, name
 
 
 def check_image():
@@ -136,11 +138,20 @@ def check_mesh():
     assert abs(errors[1]) < 0.3 * abs(errors[0]) < 0.3 * 0.02, errors  # of second order: a quarter
     solid = "".join("facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {' '.join(points[int(k) - 1])}\n" for k in f) +
                     "endloop\nendfacet\n" for f in faces)
+    turned = text[:-1] + ["f " + " ".join(reversed(faces[-1]))]
+    inside_out = [line if line.startswith("v") else "f " + " ".join(reversed(line.split()[1:])) for line in text]
+    good = f"solid ball\n{solid}endsolid ball\n"
+    ply = (folder / "ball.ply").read_bytes()
     for name, content, word in [
-            ("good.stl", f"solid ball\n{solid}endsolid ball\n", ""), ("cut.stl", f"solid ball\n{solid}", "endsolid"),
+            ("good.stl", good, ""), ("cut.stl", f"solid ball\n{solid}", "endsolid"),
+            ("four.stl", good.replace("endloop", "vertex 0 0 0\nendloop", 1), "loop of 4 vertices"),
+            ("two.stl", good.replace("vertex", "vertex x", 1), "without three numbers"),
+            ("loop.stl", "endfacet".join(good.rsplit("endloop\nendfacet", 1)), "without endloop"),
+            ("turned.obj", "\n".join(turned), "same way round"), ("inside.obj", "\n".join(inside_out), "inside out"),
+            ("big.ply", ply.replace(b"little", b"big", 1), "binary_big_endian"),
             ("open.obj", "\n".join(text[:-1]), "not closed"), ("far.obj", "v 0 0 0\nf 1 2 3\n", "vertex 1 of 1"),
             ("moon.ply", "ply\nformat cheese 1.0\nend_header\n", "cheese"), ("none.obj", "v 0 0 0\n", "no triangle"),
-            ("cut.ply", (folder / "ball.ply").read_bytes()[:-7], "cut off"), ("short.stl", b"x" * 134, "no STL")]:
+            ("cut.ply", ply[:-7], "cut off"), ("short.stl", b"x" * 134, "no STL")]:
         (folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
         said = run("--dim", 3, "--shape", folder / name, "--dry-run", good=not word)
         assert word in said, (name, said)

@@ -52,12 +52,13 @@ class Growing {
   nlohmann::json operator()(const std::vector<double>& times) {
     std::string ended;
     try {
+      if (own_.steps > 0 && tumour_.extinct()) ended = died_out;  // what it goes on from is over
       for (const double time : times) {
+        if (!ended.empty()) break;
         if (tumour_.time() - time > 1e-12 * time) continue;  // was before what it goes on from
         ended = step_to(time);
         if (!ended.empty()) save();  // what goes on has no picture here
         if (own_.shown != tumour_.time() && !tumour_.extinct()) show();
-        if (!ended.empty()) break;
       }
       if (ended.empty()) save();
     } catch (const cambium::Error& error) {
@@ -69,6 +70,8 @@ class Growing {
   }
 
  private:
+  static constexpr const char* died_out = "the tumour has died out";
+
   /// State of the program beside the tumour's.
   struct Own {
     int steps = 0;
@@ -94,7 +97,6 @@ class Growing {
   /// Empty, or why the run is over before.
   std::string step_to(double time) {
     while (time - tumour_.time() > 1e-12 * time) {
-      if (tumour_.extinct()) return "the tumour has died out";
       if (stop_.arrived()) return "stopped by a signal";
       if (own_.steps == most_steps_) return "a few steps were asked for";
       // The last two steps before a picture are of about one length: no tiny ones.
@@ -103,7 +105,7 @@ class Growing {
       try {
         const cambium::TumourStep step = tumour_.step(longest < rest && 2.0 * longest > rest ? 0.5 * rest : rest);
         ++own_.steps;
-        if (step.extinct) return "the tumour has died out";
+        if (step.extinct) return died_out;
         record_.add(series_.take(tumour_, step), own_.steps);
       } catch (const cambium::TumourAtWallError& error) {
         return error.what();

@@ -58,6 +58,7 @@ TriangleMesh read_stl(const MeshSource& source) {
     ended = word == "endsolid" || (ended && word != "facet");
   }
   if (!ended) source.refuse("has no endsolid: is it cut off?");
+  if (!loop.empty()) source.refuse("has a loop of vertices without endloop");
   return join(triangles);
 }
 
@@ -105,6 +106,7 @@ std::string obj_of(const TriangleMesh& mesh) {
   for (const auto& f : mesh.facets) out << "f " << f[0] + 1 << ' ' << f[1] + 1 << ' ' << f[2] + 1 << '\n';
   return out.str();
 }
+
 }  // namespace
 
 TriangleMesh join(const std::vector<Triangle>& triangles) {
