@@ -138,6 +138,8 @@ def draw_series(series, dim, path):
     axes[0, 2].plot(t, series["least_curvature"], label="least curvature")
     axes[1, 0].plot(t, series["inside_components"], drawstyle="steps-post", label="parts of the inside")
     axes[1, 0].plot(t, series["interface_components"], "--", drawstyle="steps-post", label="parts of the interface")
+    axes[1, 0].set_ylim(bottom=0.0)
+    axes[1, 0].yaxis.get_major_locator().set_params(integer=True)
     axes[1, 1].plot(t, 100 * series["imbalance"], label=f"{volume} less that by its sources, %")
     axes[1, 2].semilogy(t[1:], series["dt"][1:], label="step")
     for each in axes.flat:
