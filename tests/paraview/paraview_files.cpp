@@ -121,5 +121,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_said_and_leaves_the_file_as_it_wa
   const std::vector<tumour::Named> data{{"phi", numbers(lattice.size(), 1.0)}};
   const Folder folder;
   BOOST_CHECK_THROW(tumour::write_fields(folder.path / "nowhere" / "fields.vti", lattice, data), FileError);
+  BOOST_CHECK_THROW(tumour::write_fields(folder.path / "short.vti", lattice, {{"phi", numbers(3, 1.0)}}), FileError);
   BOOST_TEST(std::filesystem::is_empty(folder.path));
 }
