@@ -61,6 +61,7 @@ void write(const std::filesystem::path& path, vtkDataSet& set) {
   complaints.hear(*writer);
   complaints.hear(*writer->GetExecutive());
   writer->SetInputData(&set);
+  writer->SetCompressorTypeToZLib();
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->WriteToOutputStringOn();

@@ -80,7 +80,8 @@ class Dirichlet {
       for (std::size_t k = 1; k < 2 * D; k += 2) {
         if (node.leg[k] < 0.0) continue;
         if (node.leg[k ^ 1] >= 0.0) ++count;
-        if (domain.in_domain(domain.neighbour(domain.neighbour(node.node, k), k))) ++count;
+        const Index<D> next = domain.neighbour(domain.neighbour(node.node, k), k);  // itself, mirrored, at a wall
+        if (!(next == node.node) && domain.in_domain(next)) ++count;
       }
     }
     return count;
