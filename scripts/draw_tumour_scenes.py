@@ -16,7 +16,7 @@ def main(folder, picture):
         raise SystemExit(f"{folder} has no run of examples/tumour: tumour --scene NAME --out {folder}/NAME makes one")
     columns = 3
     rows = -(-len(runs) // columns)
-    figure, panels = plt.subplots(rows, columns, figsize=(4.6 * columns, 2.4 * rows), squeeze=False)
+    figure, panels = plt.subplots(rows, columns, figsize=(3.6 * columns, 1.9 * rows), squeeze=False)
     for axes in panels.flat:
         axes.set_axis_off()
     for axes, run in zip(panels.flat, runs):
@@ -24,7 +24,7 @@ def main(folder, picture):
         frame = report["frames"][-1]
         axes.imshow(plt.imread(run.parent / f"tumour_t{frame['name']}.png"), origin="upper")
         size = "area" if report["dim"] == 2 else "volume"
-        axes.set_title(f"{report['scene']}: t = {frame['t']:.3g}, {size} {frame['volume']:.4g}", fontsize=9)
+        axes.set_title(f"{report['scene']}: t = {frame['t']:.3g}, {size} {frame['volume']:.4g}", fontsize=8)
     save(figure, picture)
 
 
