@@ -77,7 +77,7 @@ class Paths(unittest.TestCase):
     def test_pages_of_concepts_are_reached(self):
         pages = "".join(text(page) for page in PAGES if page.parent.name != "concepts")
         for page in (PROJECT / "docs" / "concepts").glob("*.md"):
-            self.assertIn(f"concepts/{page.name})", pages, f"no page leads to {page.name}")
+            self.assertTrue(f"concepts/{page.name})" in pages, f"no page leads to {page.name}")
 
 
 class Commands(unittest.TestCase):

@@ -23,7 +23,8 @@ struct EvenGrowth {
     void attach(const cambium::NarrowBand<double, D>& band, const Points&, const Geometry&) {
       band_ = &band;
     }
-    void solve(const cambium::Field<double, D>& f, const cambium::Field<double, D, cambium::Sparse>&, double,
+    template <class Source>
+    void solve(const cambium::Field<double, D>& f, const cambium::Field<double, D, cambium::Sparse>&, const Source&,
                cambium::Field<double, D>& p, cambium::Field<double, D, cambium::Sparse>& speed) {
       double sum = 0.0, nodes = 0.0;
       cambium::detail::for_each_side(*band_, cambium::Serial{}, [&](std::size_t i, bool inside) {
