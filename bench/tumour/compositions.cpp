@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include <cambium/levelset/extension/by_pde.hpp>
 #include <cambium/levelset/reinit/fast_marching.hpp>
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/levelset/surface.hpp>
@@ -18,6 +19,35 @@ namespace {
 
 using nlohmann::json;
 using namespace cambium;
+
+/// V of the nodes next to the interface, continued off it by another extension, in the place of V at the closest point
+/// of every node. Takes the place of a filter.
+template <class X>
+struct ExtendedBy {
+  using Kind = tumour_kind::Filter;
+
+  template <int D>
+  class Method {
+   public:
+    explicit Method(const Lattice<D>& lattice) : from_(lattice), to_(lattice) {}
+    void operator()(const NarrowBand<double, D>& band, Field<double, D, Sparse>& speed, const OpenMP& execution) {
+      from_ = speed;
+      for (std::size_t b = 0; b < from_.blocks(); ++b) {
+        for (double& v : from_.block(b)) v = std::isnan(v) ? 0.0 : v;  // far from the interface
+      }
+      extend_(band, from_, to_, execution);
+      for (std::size_t b = 0; b < speed.blocks(); ++b) {
+        for (std::size_t i = 0; i < band.volume; ++i) {
+          if (!std::isnan(speed.block(b)[i])) speed.block(b)[i] = to_.block(b)[i];
+        }
+      }
+    }
+
+   private:
+    typename X::template Method<double, D> extend_{typename X::Params{}};
+    Field<double, D, Sparse> from_, to_;
+  };
+};
 
 /// A disc, for R(0.1), and the waves r = 2 +- 0.1 cos(4 theta), for the share of their height that is left at t = 0.1:
 /// exp of the integral of sigma(R(t)) by linear stability. What is odd in the height is averaged away.
@@ -77,6 +107,7 @@ json compare_compositions(const TumourOptions& options) {
         run<Tumour<2, SemiImplicit, ReinitialiseBy<FastMarching<>>>>("FastMarching", "reinitialisation", n, options));
     runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<1>>>("GaussianFilter<1>", "filter", n, options));
     runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<2>>>("GaussianFilter<2>", "filter", n, options));
+    runs.push_back(run<Tumour<2, SemiImplicit, ExtendedBy<ByPde<>>>>("ByPde", "extension", n, options));
   }
   return runs;
 }
