@@ -27,7 +27,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -391,7 +390,7 @@ int main(int argc, char** argv) {
   bench::run<2>(map, flat, calls);
   if (deep > 0) bench::run<3>(map, deep, calls_deep);
   if (!json.empty()) {
-    std::ofstream(json) << nlohmann::json{{"cells_2d", flat}, {"cells_3d", deep}, {"runs", map.rows()}}.dump(1) << '\n';
+    bench::write_json(json, {{"cells_2d", flat}, {"cells_3d", deep}, {"runs", map.rows()}});
   }
   if (map.default_failed()) std::printf("the defaults must not break\n");
   return map.default_failed() ? 1 : 0;

@@ -166,6 +166,14 @@ void run(bool quick, Json& rows) {
   add(grow<Tumour<2, SemiImplicit, ReinitialiseBy<GroupMarching<>>>>("ellipse", "GroupMarching", box(n), ellipse, end,
                                                                      soft));
   add(grow<Tumour<2, SemiImplicit, ReinitialiseBy<PdeReinit<>>>>("ellipse", "PdeReinit", box(n), ellipse, end, soft));
+  const Lattice<2> wide = Lattice<2>::bounded_box({Vec<2>::constant(-9.0), Vec<2>::constant(9.0)}, 3 * n / 2);
+  const Lattice<2> finer = Lattice<2>::bounded_box(wide.box(), 3 * n);
+  for (const Lattice<2>& lattice : {wide, finer}) {
+    add(grow<Tumour<2, SemiImplicit>>("late", "ClosestPoint", lattice, ellipse, 3.0, firm));
+    add(grow<Tumour<2, SemiImplicit, ReinitialiseBy<GroupMarching<>>>>("late", "GroupMarching", lattice, ellipse, 3.0,
+                                                                       firm));
+    add(grow<Tumour<2, SemiImplicit, ReinitialiseBy<PdeReinit<>>>>("late", "PdeReinit", lattice, ellipse, 3.0, firm));
+  }
   for (const std::ptrdiff_t cells : {n, 2 * n}) {
     for (const auto& p : {none, firm}) {
       add(grow<Tumour<2, SemiImplicit>>("filter", "none", box(cells), ellipse, end, p));

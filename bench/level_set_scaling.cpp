@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -21,6 +20,7 @@
 #include <cambium/levelset.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 #include "support/peak.hpp"
 
 using namespace cambium;
@@ -185,7 +185,7 @@ int main(int argc, char** argv) {
                                  {"reinitialise", gain.reinitialise},
                                  {"arithmetic", gain.arithmetic},
                                  {"cells", gain_cells}};
-    std::ofstream(json) << nlohmann::json{{"runs", rows}, {"gain_of_two_threads", threads}}.dump(2) << '\n';
+    bench::write_json(json, {{"runs", rows}, {"gain_of_two_threads", threads}});
   }
   if (!good) std::printf("this is more memory, or less accuracy, than the method should have\n");
   return good ? 0 : 1;

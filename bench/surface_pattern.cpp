@@ -10,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -26,6 +25,7 @@
 #endif
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 #include "support/sphere_spectrum.hpp"
 
 using namespace cambium;
@@ -356,6 +356,6 @@ int main(int argc, char** argv) {
   if (with_spectra) result["spectra"] = spectra(cells[0], 8.0 * end);
   if (with_printed) result["printed"] = printed(cells[0], seeds);
   if (with_cost || quick) result["cost"] = cost(quick ? 32 : cells[0], quick ? 20.0 : end, quick);
-  if (!file.empty()) std::ofstream(file) << result.dump(1) << '\n';
+  if (!file.empty()) bench::write_json(file, result);
   return 0;
 }

@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -19,6 +18,7 @@
 #include <cambium/surface.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 #include "support/peak.hpp"
 
 using namespace cambium;
@@ -142,7 +142,7 @@ int main(int argc, char** argv) {
   }
   if (!json.empty()) {
     const nlohmann::json of_machine{{"bytes_per_second", machine.bytes}, {"flops_per_second", machine.flops}};
-    std::ofstream(json) << nlohmann::json{{"machine", of_machine}, {"runs", runs}}.dump(2) << '\n';
+    bench::write_json(json, {{"machine", of_machine}, {"runs", runs}});
   }
   return 0;
 }

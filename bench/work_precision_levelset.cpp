@@ -12,9 +12,9 @@
 //     scripts/draw_work_precision_levelset.py raw.json
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
 #include "levelset/options.hpp"
+#include "support/command.hpp"
 
 int main(int argc, char** argv) {
   bench::Options options;
@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
   if (!json.empty()) {
     const nlohmann::json all{
         {"compiler", __VERSION__}, {"advection", advection}, {"reinitialisation", reinitialisation}};
-    std::ofstream(json) << all.dump(1) << '\n';
+    bench::write_json(json, all);
   }
   return 0;
 }

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -28,6 +27,7 @@
 #include <cambium/time.hpp>
 
 #include "support/clock.hpp"
+#include "support/command.hpp"
 
 using namespace cambium;
 
@@ -363,9 +363,7 @@ int main(int argc, char** argv) {
   bench::Study<3> deformation(deep, courant, refine, table);
   if (!deep.empty()) bench::run_kernels<BENCH_SMOKE != 0>(deformation);
   if (!json.empty()) {
-    std::ofstream(json)
-        << nlohmann::json{{"courant", courant}, {"refine_steps", refine}, {"stepper", "RK4"}, {"runs", table}}.dump(1)
-        << '\n';
+    bench::write_json(json, {{"courant", courant}, {"refine_steps", refine}, {"stepper", "RK4"}, {"runs", table}});
   }
   return 0;
 }

@@ -3,13 +3,13 @@
 //
 // Tumours against what is known of them. Each verification is an option; see tumour/verification.hpp.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "support/command.hpp"
 #include "tumour/verification.hpp"
 
 namespace {
@@ -60,6 +60,6 @@ int main(int argc, char** argv) {
     if (wanted[k] == 0) continue;
     for (auto& run : known[k].verification(options)) runs.push_back(std::move(run));
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
+  if (!json.empty()) bench::write_json(json, {{"runs", runs}});
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 
 namespace command_line {
@@ -17,6 +18,13 @@ inline CLI::Validator writable_file() {
     return "cannot write " + path + ": check that its folder exists and may be written to";
   };
   return {complaint, ""};
+}
+
+/// Writes a text to a file. \throws std::runtime_error if it does not get there as a whole
+inline void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text << std::endl;
+  if (!file) throw std::runtime_error("cannot write " + path + ": check that its folder exists and has space left");
 }
 
 /// What main returns for an error that ends the program, having said what it is.

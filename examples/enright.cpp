@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -140,7 +139,7 @@ int main(int argc, char** argv) try {
     const double allowed = 64.0 / static_cast<double>(n);
     good &= std::abs(r.volume_half) < 0.06 * allowed && std::abs(r.volume_end) < 0.05 * allowed && r.distance < 0.3;
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"runs", runs}}.dump(2));
   if (!good) std::printf("this is worse than the method should be\n");
   return good ? 0 : 1;
 } catch (const std::exception& error) {

@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -145,7 +144,7 @@ int main(int argc, char** argv) try {
                 result.step.dt, name(result.step.bound));
     table.push_back({{"cells", n}, {"error", result.error}, {"total", result.total}});
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", table}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"runs", table}}.dump(2));
   const bool accurate = cells.size() < 2 || order > 3.5;
   const bool conserved = std::abs(result.total - 1.0) < 1e-6;
   if (!accurate) std::printf("the error does not fall as the fourth power of the spacing\n");

@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -176,7 +175,7 @@ int main(int argc, char** argv) try {
   nlohmann::json table = nlohmann::json::array();
   const bool round = study<LambOseen>(cells, folder, table);
   const bool square = study<TaylorGreen>(cells, folder, table);
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", table}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"runs", table}}.dump(2));
   if (!round || !square) std::printf("the error does not fall as the fourth power of the spacing\n");
   return round && square ? 0 : 1;
 } catch (const std::exception& error) {

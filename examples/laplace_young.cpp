@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -152,7 +151,7 @@ int main(int argc, char** argv) try {
     runs.push_back(run<2>(n, n == cells.back() ? folder : "", good));
     runs.push_back(run<3>(n, "", good));
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"runs", runs}}.dump(2));
   if (!good) std::printf("this is worse than the method should be\n");
   return good ? 0 : 1;
 } catch (const std::exception& error) {

@@ -12,7 +12,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -246,7 +245,7 @@ int main(int argc, char** argv) try {
       if (p == 0) good &= is_good(result, options.calls);
     }
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"runs", runs}}.dump(2));
   if (!good) std::printf("closest points move the interface more than they should\n");
   return good ? 0 : 1;
 } catch (const std::exception& error) {

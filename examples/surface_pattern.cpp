@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -289,7 +288,7 @@ int main(int argc, char** argv) try {
     const json& last = runs.back()["frames"].back();
     good = good && std::isfinite(last["high"].get<double>()) && last["high"] > last["low"] && last["area"] > 0.0;
   }
-  if (!file.empty()) std::ofstream(file) << json{{"runs", runs}}.dump(1) << '\n';
+  if (!file.empty()) command_line::write_text(file, json{{"runs", runs}}.dump(1));
   if (!good) std::printf("a scene is worse than it should be\n");
   return good ? 0 : 1;
 } catch (const std::exception& error) {

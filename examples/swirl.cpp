@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -167,7 +166,7 @@ int main(int argc, char** argv) try {
                      {"scattered_half", scattered.half},
                      {"scattered_end", scattered.end}});
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"kernel", kernel}, {"runs", table}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"kernel", kernel}, {"runs", table}}.dump(2));
   // With remeshing the error falls as the filament comes to be resolved; without, it stays.
   const bool falls = cells.size() < 2 || order > 0.8;
   const bool stays = scattered.half > 0.8 && scattered.half > 1.2 * remeshed.half;

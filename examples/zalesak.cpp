@@ -12,7 +12,6 @@
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -220,7 +219,7 @@ int main(int argc, char** argv) try {
       }
     }
   }
-  if (!json.empty()) std::ofstream(json) << nlohmann::json{{"runs", runs}}.dump(2) << '\n';
+  if (!json.empty()) command_line::write_text(json, nlohmann::json{{"runs", runs}}.dump(2));
   if (!good) std::printf("this is worse than the method should be\n");
   return good ? 0 : 1;
 } catch (const std::exception& error) {

@@ -17,7 +17,7 @@ import matplotlib.pyplot as plt
 
 import bench_report
 
-MARKERS = ["o", "s", "v", "D", "^", "x", "P"]
+MARKERS = ["o", "s", "v", "D", "^", "x", "P", "*"]
 
 
 def main(raw=None):

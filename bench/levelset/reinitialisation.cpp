@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "openvdb/openvdb.hpp"
+#include "support/command.hpp"
 
 template class bench::ReinitScene<2>;
 #if !BENCH_SMOKE
@@ -74,8 +75,9 @@ void write_field(std::ptrdiff_t cells, const Options& options, nlohmann::json& l
   Rows rows;
   const std::vector<double> phi = ReinitScene<D>(cells, options, rows).badly_scaled();
   const std::string name = std::to_string(D) + "d_" + std::to_string(cells);
-  std::ofstream(options.fields + "/" + name, std::ios::binary)
-      .write(reinterpret_cast<const char*>(phi.data()), static_cast<std::streamsize>(phi.size() * sizeof(double)));
+  std::ofstream file(options.fields + "/" + name, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(phi.data()), static_cast<std::streamsize>(phi.size() * sizeof(double)));
+  if (!file.flush()) throw std::runtime_error("cannot write " + name + " in " + options.fields + ": is the disk full?");
   list.push_back({{"file", name}, {"dimension", D}, {"cells", cells}});
 }
 
@@ -95,7 +97,7 @@ void write_fields(const Options& options) {
 #if !BENCH_SMOKE
   for (const std::ptrdiff_t cells : options.cells_3d) write_field<3>(cells, options, list);
 #endif
-  std::ofstream(options.fields + list_of_fields) << list.dump(1) << '\n';
+  write_json(options.fields + list_of_fields, list);
 }
 
 }  // namespace bench

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include <cambium/interface/jump_mayo.hpp>
 #include <cambium/levelset/extension/by_pde.hpp>
 #include <cambium/levelset/reinit/fast_marching.hpp>
 #include <cambium/levelset/shapes/ball.hpp>
@@ -108,6 +109,7 @@ json compare_compositions(const TumourOptions& options) {
     runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<1>>>("GaussianFilter<1>", "filter", n, options));
     runs.push_back(run<Tumour<2, SemiImplicit, GaussianFilter<2>>>("GaussianFilter<2>", "filter", n, options));
     runs.push_back(run<Tumour<2, SemiImplicit, ExtendedBy<ByPde<>>>>("ByPde", "extension", n, options));
+    runs.push_back(run<Tumour<2, SemiImplicit, BasicFreeSpace<JumpOfValue>>>("JumpOfValue", "jump", n, options));
   }
   return runs;
 }

@@ -106,6 +106,11 @@ def check_image():
     run("--dim", 3, "--n", 24, "--box", 6, "--shape", f"{packed},1,1", "--at", 1e-4, "--no-page", "--out", out)
     volume = float(rows(out)[0]["volume"])
     assert abs(volume / (4 / 3 * 3.14159265 * 1.5**3) - 1) < 0.01, volume
+    run("--dim", 3, "--shape", "ellipsoid:0,1.5", "--box", 4, "--make-image", folder / "ball.vti")
+    run("--dim", 3, "--n", 24, "--box", 6, "--shape", folder / "ball.vti", "--at", 1e-4, "--no-page", "--out", folder / "vti")
+    assert abs(float(rows(folder / "vti")[0]["volume"]) / volume - 1) < 1e-12  # axes are written as numbers times a norm
+    (folder / "cut.vti").write_bytes((folder / "ball.vti").read_bytes()[:900])
+    assert "VTK library" in run("--dim", 3, "--shape", folder / "cut.vti", "--dry-run", good=False)
 
 
 def volume_of(obj):

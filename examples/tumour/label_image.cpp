@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include <cambium/core/error.hpp>
+#include <cambium/io/npy.hpp>
 #include <cambium/levelset/shapes/image.hpp>
 
 namespace tumour {
@@ -53,6 +53,25 @@ Vec<3> middle_of(const LabelImage& image, int label) {
 }
 
 }  // namespace
+
+void require_place(const LabelImage& image, const std::filesystem::path& path) {
+  const auto& [a, b, c] = image.axis;
+  const bool finite = std::isfinite(norm(image.origin)) && std::isfinite(norm(a) * norm(b) * norm(c));
+  if (!finite || !(std::abs(dot(a, cross(b, c))) > 1e-9 * norm(a) * norm(b) * norm(c))) {
+    throw cambium::FileError(path.string() + ": has axes in one plane, or that are not finite");
+  }
+  for (int d = 0; d < 3; ++d) {
+    if (image.size[d] >= 2) continue;
+    throw cambium::FileError(path.string() + ": has less than 2 voxels along axis " + std::to_string(d));
+  }
+}
+
+LabelImage read_image(const std::filesystem::path& path) {
+  return path.extension() == ".vti" ? read_vti(path) : read_nrrd(path);
+}
+void write_image(const std::filesystem::path& path, const LabelImage& image) {
+  path.extension() == ".vti" ? write_vti(path, image) : write_nrrd(path, image);
+}
 
 LabelImage image_of(const Shape<3>& shape, double half_edge) {
   LabelImage image;

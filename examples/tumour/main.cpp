@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
       if (is_mesh(options.make_image)) {
         write_mesh(options.make_image, mesh_of(shape, options.box, options.cells));
       } else {
-        write_nrrd(options.make_image, image_of(shape, 0.5 * options.box));
+        write_image(options.make_image, image_of(shape, 0.5 * options.box));
       }
       return 0;
     }

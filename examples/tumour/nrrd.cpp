@@ -96,11 +96,7 @@ void find_place(const Header& header, LabelImage& image, const std::filesystem::
     const auto v = numbers(header.at("space origin"), 3, "space origin", path);
     image.origin = {v[0], v[1], v[2]};
   }
-  const auto& a = image.axis;
-  const double volume = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
-                        a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
-                        a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
-  if (!(std::abs(volume) > 1e-9 * norm(a[0]) * norm(a[1]) * norm(a[2]))) refuse(path, "has axes in one plane");
+  require_place(image, path);
 }
 
 /// Inflates bytes of gzip piece by piece, up to one byte more than there should be.

@@ -52,8 +52,9 @@ void add_options(CLI::App& app, Options& o) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--resume", o.resume, "go on from a run's folder, or its checkpoint.h5, with the options of that run")
       ->configurable(false);
-  app.add_option("--make-image", o.make_image,
-                 "write a label image (.nrrd) or a mesh (.stl, .ply, .obj) of the shape, which is in space, and end")
+  app.add_option(
+         "--make-image", o.make_image,
+         "write a label image (.nrrd, .vti) or a mesh (.stl, .ply, .obj) of the shape, which is in space, and end")
       ->configurable(false);
   app.add_flag("--smoke", o.smoke, "a small lattice and two steps, to see that everything works")->configurable(false);
 }

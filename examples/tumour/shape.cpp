@@ -66,12 +66,13 @@ Shape<D> pair(double r, double distance) {
 
 std::string shape_help() {
   return "one of ellipsoid:e,r | star:r0,a2,p2,a3,p3,... (plane) | amorphous:inner,outer,seed | pair:r,distance | "
-         "FILE.nrrd[,label,scale] (label image; 1,1 where nothing is said) | FILE.stl|ply|obj[,scale] (closed mesh)";
+         "FILE.nrrd|vti[,label,scale] (label image; 1,1 where nothing is said) | FILE.stl|ply|obj[,scale] (closed "
+         "mesh)";
 }
 
 namespace {
 
-constexpr std::string_view endings[] = {".nrrd", ".stl", ".ply", ".obj"};
+constexpr std::string_view endings[] = {".nrrd", ".vti", ".stl", ".ply", ".obj"};
 
 /// Where the ending of a file's name ends, npos if there is no file's name.
 std::size_t end_of_file_name(const std::string& text) {
@@ -83,14 +84,14 @@ std::size_t end_of_file_name(const std::string& text) {
   return std::string::npos;
 }
 
-/// FILE.nrrd or FILE.nrrd,label,scale; FILE.stl or FILE.stl,scale
+/// FILE.nrrd or FILE.nrrd,label,scale, as VTI; FILE.stl or FILE.stl,scale
 template <int D>
 Shape<D> shape_from_file(const std::string& text, std::size_t end) {
   if constexpr (D == 2) {
     refuse(text, "images and meshes are shapes of space: --dim 3");
   } else {
     const std::string file = text.substr(0, end);
-    const bool image = file.ends_with(endings[0]);
+    const bool image = file.ends_with(endings[0]) || file.ends_with(endings[1]);
     std::vector<double> v(image ? 2 : 1, 1.0);
     if (end < text.size()) v = numbers("--shape", text.substr(end + 1));
     if (!image) {
@@ -100,7 +101,7 @@ Shape<D> shape_from_file(const std::string& text, std::size_t end) {
     if (v.size() != 2 || v[0] != std::floor(v[0]) || std::abs(v[0]) > 1e9 || !(v[1] > 0.0)) {
       refuse(text, "after the file's name a whole label and a positive scale are read");
     }
-    return shape_from_image(read_nrrd(file), static_cast<int>(v[0]), v[1]);
+    return shape_from_image(read_image(file), static_cast<int>(v[0]), v[1]);
   }
 }
 

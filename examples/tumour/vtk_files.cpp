@@ -3,10 +3,8 @@
 #include "vtk_files.hpp"
 
 #include <string>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
-#include <vtkExecutive.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -15,7 +13,7 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
-#include <cambium/io/npy.hpp>
+#include "vtk_library.hpp"
 
 namespace tumour {
 namespace {
@@ -28,49 +26,6 @@ void add_data(vtkDataSet& set, const std::vector<Named>& data) {
     for (std::size_t i = 0; i < item.values.size(); ++i) values->SetValue(static_cast<vtkIdType>(i), item.values[i]);
     set.GetPointData()->AddArray(values);
   }
-}
-/// What objects of the library complain of, which they then do not print.
-class Complaints {
- public:
-  Complaints() {
-    command_->SetClientData(&text_);
-    command_->SetCallback([](vtkObject*, unsigned long, void* text, void* said) {
-      if (said) *static_cast<std::string*>(text) += static_cast<const char*>(said);
-    });
-  }
-  ~Complaints() { command_->SetCallback(nullptr); }  // objects may live longer
-  Complaints(const Complaints&) = delete;
-  Complaints& operator=(const Complaints&) = delete;
-  void hear(vtkObject& object) {
-    object.AddObserver(vtkCommand::ErrorEvent, command_);
-    object.AddObserver(vtkCommand::WarningEvent, command_);
-  }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-  vtkNew<vtkCallbackCommand> command_;
-};
-
-/// Binary, compressed. To a string first: files appear whole or not at all.
-template <class Writer>
-void write(const std::filesystem::path& path, vtkDataSet& set) {
-  Complaints complaints;
-  const vtkNew<Writer> writer;
-  complaints.hear(set);
-  complaints.hear(*writer);
-  complaints.hear(*writer->GetExecutive());
-  writer->SetInputData(&set);
-  writer->SetCompressorTypeToZLib();
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->WriteToOutputStringOn();
-  // Some errors are only told: Write() returns 1 for data that do not fit, too.
-  if (writer->Write() != 1 || writer->GetErrorCode() != 0 || !complaints.text().empty()) {
-    throw cambium::FileError(cambium::detail::message("the VTK library cannot write ", path.string(),
-                                                      ", which is as it was before: ", complaints.text()));
-  }
-  write_whole(path, writer->GetOutputString());
 }
 
 }  // namespace
@@ -91,7 +46,7 @@ void write_surface(const std::filesystem::path& path, const cambium::Surface<3>&
   set->SetPoints(points);
   set->SetPolys(triangles);
   add_data(*set, data);
-  write<vtkXMLPolyDataWriter>(path, *set);
+  write_vtk<vtkXMLPolyDataWriter>(path, *set);
 }
 
 template <int D>
@@ -109,7 +64,7 @@ void write_fields(const std::filesystem::path& path, const cambium::Lattice<D>& 
   set->SetOrigin(origin.data());
   set->SetSpacing(spacing.data());
   add_data(*set, data);
-  write<vtkXMLImageDataWriter>(path, *set);
+  write_vtk<vtkXMLImageDataWriter>(path, *set);
 }
 template void write_fields<2>(const std::filesystem::path&, const cambium::Lattice<2>&, const std::vector<Named>&);
 template void write_fields<3>(const std::filesystem::path&, const cambium::Lattice<3>&, const std::vector<Named>&);

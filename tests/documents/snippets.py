@@ -51,7 +51,8 @@ def source(pages):
         body = DEFINITION.sub("", whole)
         name = page.relative_to(PROJECT).as_posix()
         parts.append(f"namespace page_{number} {{  // {name}\nusing namespace cambium;\n{front}\nvoid shown() {{\n{body}\n}}\n}}\n")
-    headers = ["cambium", "levelset", "surface", "models/surface_pattern", "interface/dirichlet"]
+    headers = ["cambium", "levelset", "surface", "models/surface_pattern", "models/tumour",
+               "interface/dirichlet"]
     standard = ["algorithm", "array", "cmath", "cstdio", "numbers", "span", "tuple", "vector"]
     includes = [f"#include <{s}>\n" for s in standard] + [f"#include <cambium/{h}.hpp>\n" for h in headers]
     return "".join(includes) + "\n" + "\n".join(parts)

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <tuple>
 #include <unistd.h>
@@ -22,6 +23,7 @@
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/levelset/surface.hpp>
 
+#include "label_image.hpp"
 #include "vtk_files.hpp"
 
 using namespace cambium;
@@ -123,4 +125,88 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_said_and_leaves_the_file_as_it_wa
   BOOST_CHECK_THROW(tumour::write_fields(folder.path / "nowhere" / "fields.vti", lattice, data), FileError);
   BOOST_CHECK_THROW(tumour::write_fields(folder.path / "short.vti", lattice, {{"phi", numbers(3, 1.0)}}), FileError);
   BOOST_TEST(std::filesystem::is_empty(folder.path));
+}
+
+namespace {
+
+/// Unequal sizes, spacings and turned axes; a label for every voxel.
+tumour::LabelImage turned_image() {
+  tumour::LabelImage image;
+  image.size = {4, 3, 5};
+  image.axis = {Vec<3>{0.3, 0.4, 0.0}, Vec<3>{-0.16, 0.12, 0.0}, Vec<3>{0.0, 0.0, 0.7}};
+  image.origin = {1.0, -2.0, 3.0};
+  for (int i = 0; i < 60; ++i) image.labels.push_back(i % 7);
+  return image;
+}
+void check_same(const tumour::LabelImage& a, const tumour::LabelImage& b) {
+  BOOST_TEST((a.size == b.size));
+  BOOST_TEST(a.labels == b.labels, boost::test_tools::per_element());
+  BOOST_TEST(norm(a.origin - b.origin) < 1e-14);
+  for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(norm(a.axis[k] - b.axis[k]) < 1e-14);
+}
+/// An image of text, of 3 x 3 x 3 points from (5, 6, 7) on, with the arrays that are given.
+std::filesystem::path write_text(const Folder& folder, const std::string& arrays, const std::string& last = "9") {
+  const auto path = folder.path / "text.vti";
+  const std::string extent = "\"5 7 6 8 7 " + last + "\"";
+  std::ofstream(path) << "<VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\"><ImageData "
+                         "WholeExtent="
+                      << extent << " Origin=\"1 2 3\" Spacing=\"0.5 1 2\"><Piece Extent=" << extent << ">" << arrays
+                      << "</Piece></ImageData></VTKFile>\n";
+  return path;
+}
+std::string array(const char* type, const char* name, int count) {
+  std::string text = std::string("<DataArray type=\"") + type + "\" Name=\"" + name + "\" format=\"ascii\">";
+  for (int i = 0; i < count; ++i) text += " " + std::to_string(i + 200);
+  return text + "</DataArray>";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(label_images_come_back_as_they_are) {
+  const Folder folder;
+  const auto image = turned_image();
+  for (const char* name : {"image.vti", "image.nrrd"}) {
+    tumour::write_image(folder.path / name, image);
+    check_same(tumour::read_image(folder.path / name), image);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(label_images_have_labels_at_points_or_in_cells) {
+  const Folder folder;
+  for (const char* type : {"UInt8", "Int16", "UInt16", "Int32", "Int64"}) {
+    const auto image = tumour::read_vti(write_text(folder, "<PointData>" + array(type, "a", 27) + "</PointData>"));
+    BOOST_TEST((image.size == Index<3>{3, 3, 3}));
+    BOOST_TEST(norm(image.origin - Vec<3>{3.5, 8.0, 17.0}) == 0.0);  // origin + the first index times the spacing
+    BOOST_TEST(norm(image.axis[2] - Vec<3>{0.0, 0.0, 2.0}) == 0.0);
+    BOOST_TEST(image.labels[26] == 226);
+  }
+  const auto cells = tumour::read_vti(write_text(folder, "<CellData>" + array("Int32", "a", 8) + "</CellData>"));
+  BOOST_TEST((cells.size == Index<3>{2, 2, 2}));
+  BOOST_TEST(norm(cells.origin - Vec<3>{3.75, 8.5, 18.0}) == 0.0);
+  BOOST_TEST(cells.labels[7] == 207);
+  const std::string two = array("Int32", "a", 27) + array("UInt8", "b", 27);
+  const auto active = tumour::read_vti(write_text(folder, "<PointData Scalars=\"b\">" + two + "</PointData>"));
+  BOOST_TEST(active.labels[1] == 201);
+  BOOST_CHECK_THROW(tumour::read_vti(write_text(folder, "<PointData>" + two + "</PointData>")), FileError);
+}
+
+BOOST_AUTO_TEST_CASE(label_images_that_are_not_as_they_should_be_are_refused) {
+  const Folder folder;
+  const auto refused = [](const std::filesystem::path& path, const std::string& why) {
+    BOOST_CHECK_EXCEPTION(tumour::read_vti(path), FileError, [&](const FileError& error) {
+      BOOST_TEST_INFO(error.what());
+      return std::string(error.what()).find(why) != std::string::npos;
+    });
+  };
+  refused(folder.path / "none.vti", "check that it is there");
+  refused(write_text(folder, ""), "no array");
+  refused(write_text(folder, "<PointData>" + array("Float32", "a", 27) + "</PointData>"), "float");
+  refused(write_text(folder, "<PointData>" + array("Int32", "a", 27) + "</PointData>", "7"), "axis 2");
+  refused(write_text(folder, "<PointData>" + array("Int32", "a", 27) + "</PointData>", "4000000"), "4096");
+  refused(write_text(folder, "<PointData>" + array("Int32", "a", 20) + "</PointData>"), "");
+  std::ofstream(folder.path / "text.vti") << "<VTKFile type=\"ImageData\" <<";
+  refused(folder.path / "text.vti", "VTK library cannot read");
+  tumour::write_vti(folder.path / "cut.vti", turned_image());
+  std::filesystem::resize_file(folder.path / "cut.vti", std::filesystem::file_size(folder.path / "cut.vti") - 40);
+  refused(folder.path / "cut.vti", "");
 }

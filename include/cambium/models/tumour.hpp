@@ -24,6 +24,7 @@
 #include <cambium/models/tumour/policy.hpp>
 #include <cambium/models/tumour/quasi_steady.hpp>
 #include <cambium/models/tumour/semi_implicit.hpp>
+#include <cambium/models/tumour/speed_limits.hpp>
 #include <cambium/models/tumour/zero_outside.hpp>
 #include <cambium/time/step_size.hpp>
 
@@ -139,7 +140,7 @@ class Tumour {
   /// and what bounds it.
   TumourStep next_step(double longest = std::numeric_limits<double>::infinity()) const {
     TumourStep step;
-    step.largest_speed = largest_speed();
+    step.largest_speed = detail::largest_speed(level_set_.band(), speed());
     const double h = level_set_.spacing();
     const StepSize advection = advection_limit(params_.courant, h, step.largest_speed);
     const StepSize tension = tension_bound();
@@ -244,17 +245,6 @@ class Tumour {
       throw TumourAtWallError(detail::message("the tumour has reached the box at time ", time_, ": ", error.what()));
     }
   }
-  double largest_speed() const {
-    const Band& band = level_set_.band();
-    double largest = 0.0;
-    for (std::size_t b = 0; b < band.blocks(); ++b) {
-      for (std::size_t i = 0; i < Band::volume; ++i) {
-        const double v = speed().block(b)[i];
-        if (std::abs(band.values().block(b)[i]) <= band.spacing()) largest = std::max(largest, std::abs(v));
-      }
-    }
-    return largest;
-  }
   /// Surface tension makes waves of wave number k decay at gamma k^3 / 2 (free space) or gamma k^3 (p = 0 outside).
   StepSize tension_bound() const {
     if constexpr (std::isinf(Stepping::real_axis)) {
@@ -271,28 +261,9 @@ class Tumour {
     const StepSize tension = tension_limit(params_.stiffness, level_set_.spacing(), growth_.tension_mobility());
     return {std::min(0.25 * advection.dt, tension.dt), Limit::growth};
   }
-  /// Speeds may change by a share, unless what they change by moves the interface by less than a thousandth of a
-  /// spacing: next to rest they are those of the lattice, not of the tumour. Both are root mean squares.
   StepSize change_bound() const {
     if (!Stepping::keeps_speed || !(last_step_ > 0.0)) return {};
-    const Band& band = level_set_.band();
-    double squares = 0.0, changes = 0.0, count = 0.0;
-    for (std::size_t b = 0; b < band.blocks(); ++b) {
-      const std::ptrdiff_t old = before_.find(band.values().block_index(b));
-      for (std::size_t i = 0; old >= 0 && i < Band::volume; ++i) {
-        if (std::abs(band.values().block(b)[i]) > band.spacing()) continue;
-        const double now = speed().block(b)[i], then = before_.block(static_cast<std::size_t>(old))[i];
-        if (std::isnan(now) || std::isnan(then)) continue;
-        squares += now * now;
-        changes += (now - then) * (now - then);
-        count += 1.0;
-      }
-    }
-    if (!(changes > 0.0)) return {};
-    const double change = std::sqrt(changes / count) / last_step_;
-    return {
-        std::max(params_.change * std::sqrt(squares / count) / change, std::sqrt(1e-3 * level_set_.spacing() / change)),
-        Limit::accuracy};
+    return detail::change_limit(params_.change, level_set_.band(), speed(), before_, last_step_);
   }
   void find_size() {
     std::size_t nodes = 0;

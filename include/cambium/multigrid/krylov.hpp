@@ -230,6 +230,17 @@ int run_eigen(Apply& apply, Precondition& precondition, std::span<const T> b, st
   return static_cast<int>(solver.iterations());
 }
 
+/// \param before  residual of the last call of a loop, 0 if there was none
+inline void require_progress(const SolveReport& report, double before, const KrylovBounds& bounds) {
+  const bool stuck = before > 0.0 && !(report.residual < 0.5 * before);
+  if (!stuck && report.iterations < bounds.most_iterations && std::isfinite(report.residual)) return;
+  throw ConvergenceError(message("the Krylov loop has a relative residual of ", report.residual, " after ",
+                                 report.iterations, " iterations and was to reach ", bounds.tolerance,
+                                 ": allow more iterations, precondition better, or ask for no less than round-off "
+                                 "allows"),
+                         report.residuals);
+}
+
 }  // namespace detail
 
 /// Solves A x = b, A and the preconditioner being functions (in, out) of arrays as long as b, by Krylov =
@@ -261,14 +272,7 @@ SolveReport solve_krylov(Apply&& apply, Precondition&& precondition, std::span<c
   report.residuals.reserve(static_cast<std::size_t>(2 * std::min(bounds.most_iterations, 100)) + 8);
   report.residuals.push_back(report.residual = residual());
   for (double before = 0.0; !(report.residual <= bounds.tolerance);) {
-    const bool stuck = before > 0.0 && !(report.residual < 0.5 * before);
-    if (stuck || report.iterations >= bounds.most_iterations || !std::isfinite(report.residual)) {
-      throw ConvergenceError(
-          detail::message("the Krylov loop has a relative residual of ", report.residual, " after ", report.iterations,
-                          " iterations and was to reach ", bounds.tolerance,
-                          ": allow more iterations, precondition better, or ask for no less than round-off allows"),
-          report.residuals);
-    }
+    detail::require_progress(report, before, bounds);
     before = report.residual;
     int taken = 0;
     const std::span<T> improved(space.solution_);

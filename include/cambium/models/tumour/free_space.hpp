@@ -8,14 +8,19 @@
 
 namespace cambium {
 
-/// Lap p = 0 outside, in free space: p falls off (like the logarithm in the plane). The default.
-struct FreeSpace {
+/// Lap p = 0 outside, in free space: p falls off (like the logarithm in the plane).
+/// \tparam Rule  how the pressure jumps, see JumpRule: FreeSpace's, or JumpOfValue for comparison
+template <class Rule>
+struct BasicFreeSpace {
   using Kind = tumour_kind::Outside;
   /// Speed that a drop of the pressure with short waves causes, over their wave number.
   static constexpr double mobility = 0.5;
 
   template <int D, class K>
-  using Method = detail::JumpPressure<D, FreeSpacePoisson<D, double, OpenMP>, K>;
+  using Method = detail::JumpPressure<D, FreeSpacePoisson<D, double, OpenMP>, K, Rule>;
 };
+
+/// The default.
+using FreeSpace = BasicFreeSpace<JumpExtension>;
 
 }  // namespace cambium

@@ -22,9 +22,10 @@ struct NoSink {
 };
 
 /// Pressure on both sides of the interface: -Lap p = f inside, p_in - p_out given, dp/dn without a jump, by one solve
-/// on the whole lattice. \tparam Solver  of the second-order difference equations; \tparam Sink  -Lap p outside: fill()
-/// gives f its constant value there and returns it, balance() makes what the solver gets one that has a solution
-template <int D, class Solver, class K, class Sink = NoSink>
+/// on the whole lattice. \tparam Solver  of the second-order difference equations; \tparam Rule  what legs across the
+/// interface are corrected by, see JumpRule; \tparam Sink  -Lap p outside: fill() gives f its constant value there and
+/// returns it, balance() makes what the solver gets one that has a solution
+template <int D, class Solver, class K, class Rule = JumpExtension, class Sink = NoSink>
 class JumpPressure {
  public:
   using Band = NarrowBand<double, D>;
@@ -100,7 +101,7 @@ class JumpPressure {
 
   OpenMP execution_;
   Solver solver_;
-  BasicJump<D, double, JumpExtension, K> jump_;
+  BasicJump<D, double, Rule, K> jump_;
   InterfaceSides<D> sides_;
   Values drop_, step_;
   const Band* band_ = nullptr;

@@ -56,13 +56,13 @@ struct Periodic {
   static constexpr double mobility = 0.5;
 
   template <int D, class K>
-  class Method : public detail::JumpPressure<D, PeriodicPoisson<D, SecondOrder, double, OpenMP>, K, detail::EvenSink> {
-    using Solver = PeriodicPoisson<D, SecondOrder, double, OpenMP>;
+  class Method : public detail::JumpPressure<D, PeriodicPoisson<D, SecondOrder, double, OpenMP>, K, JumpExtension,
+                                             detail::EvenSink> {
+    using Params = typename PeriodicPoisson<D, SecondOrder, double, OpenMP>::Params;
 
    public:
     Method(const Lattice<D>& lattice, double reach, const OpenMP& execution)
-        : detail::JumpPressure<D, Solver, K, detail::EvenSink>(lattice, reach, execution,
-                                                               typename Solver::Params{.mean = MeanPart::subtract}) {}
+        : Method::JumpPressure(lattice, reach, execution, Params{.mean = MeanPart::subtract}) {}
   };
 };
 
