@@ -15,13 +15,13 @@
 
 namespace tumour {
 
-/// What objects of the VTK library complain of, which they then do not print.
+/// What objects of the VTK library complain of first; they then print nothing.
 class VtkComplaints {
  public:
   VtkComplaints() {
     command_->SetClientData(&text_);
     command_->SetCallback([](vtkObject*, unsigned long, void* text, void* said) {
-      if (said) *static_cast<std::string*>(text) += static_cast<const char*>(said);
+      if (said) keep(*static_cast<std::string*>(text), static_cast<const char*>(said));
     });
   }
   ~VtkComplaints() { command_->SetCallback(nullptr); }  // objects may live longer
@@ -35,6 +35,15 @@ class VtkComplaints {
   const std::string& text() const { return text_; }
 
  private:
+  /// The first one alone, without the line of the library's source and the object's address, which come before.
+  static void keep(std::string& text, std::string said) {
+    if (!text.empty()) return;
+    const std::size_t address = said.find("): ");
+    if (address != std::string::npos) said.erase(0, address + 3);
+    while (!said.empty() && said.back() == '\n') said.pop_back();
+    text = said.empty() ? "it does not say why" : said;
+  }
+
   std::string text_;
   vtkNew<vtkCallbackCommand> command_;
 };
