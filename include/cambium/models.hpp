@@ -23,4 +23,5 @@
 #include <cambium/models/tumour/periodic.hpp>
 #include <cambium/models/tumour/policy.hpp>
 #include <cambium/models/tumour/sides.hpp>
+#include <cambium/models/tumour/speed_limits.hpp>
 #include <cambium/models/tumour/value_at.hpp>
