@@ -3,7 +3,6 @@
 //
 // Any bytes as a label image in the format of the VTK library: a body or a typed error.
 #include "label_image.hpp"
-
 #include "target.hpp"
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
