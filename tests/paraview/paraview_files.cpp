@@ -3,8 +3,10 @@
 #define BOOST_TEST_MODULE paraview_files
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <tuple>
 #include <unistd.h>
@@ -23,6 +25,7 @@
 #include <cambium/levelset/shapes/ball.hpp>
 #include <cambium/levelset/surface.hpp>
 
+#include "child_process.hpp"
 #include "label_image.hpp"
 #include "vtk_files.hpp"
 
@@ -209,4 +212,34 @@ BOOST_AUTO_TEST_CASE(label_images_that_are_not_as_they_should_be_are_refused) {
   tumour::write_vti(folder.path / "cut.vti", turned_image());
   std::filesystem::resize_file(folder.path / "cut.vti", std::filesystem::file_size(folder.path / "cut.vti") - 40);
   refused(folder.path / "cut.vti", "");
+}
+
+BOOST_AUTO_TEST_CASE(what_reads_a_file_may_crash_or_come_to_no_end) {
+  const auto said = [](const std::function<std::string()>& work) {
+    try {
+      return tumour::in_child_process("file", 1, work);
+    } catch (const FileError& error) {
+      return "refused: " + std::string(error.what());
+    }
+  };
+  const std::string large(1000000, 'x');  // more than a pipe holds
+  BOOST_TEST((said([&] { return large; }) == large));
+  BOOST_TEST(said([] { return std::string(); }) == "");
+  BOOST_TEST(said([]() -> std::string { throw ValueError("as I said"); }) == "refused: as I said");
+  const auto crash = [] {
+    std::raise(SIGSEGV);
+    return std::string();
+  };
+  BOOST_TEST(said(crash) == "refused: file: what reads it crashed: it is damaged");
+  const auto endless = [] {
+    for (volatile bool more = true; more;) {
+    }
+    return std::string();
+  };
+  BOOST_TEST(said(endless) == "refused: file: reading it comes to no end: it is damaged");
+  const auto greedy = [] {
+    tumour::allow_memory(1e7);
+    return std::string(100000000, 'x');
+  };
+  BOOST_TEST(said(greedy).substr(0, 7) == "refused");
 }
