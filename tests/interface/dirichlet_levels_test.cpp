@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(solutions_take_no_memory) {
         f, [](const Vec<3>& x) { return x[0]; }, solver == &fresh ? expected : again);
   }
   BOOST_TEST(std::ranges::equal(again.values(), expected.values()));
-  BOOST_TEST(solving == 1U);  // the residuals of the report
+  BOOST_TEST(solving == support::counted(1));  // the residuals of the report
   BOOST_TEST(bytes < 2000U);
   BOOST_TEST(after == 0U);
 }

@@ -14,6 +14,16 @@ namespace support {
 inline std::atomic<std::size_t> allocations{0};
 inline std::atomic<std::size_t> allocated_bytes{0};
 
+/// What is counted of `n` allocations: none under the thread sanitizer of clang, whose own operators come first.
+constexpr std::size_t counted(std::size_t n) {
+#if defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+  return 0 * n;
+#endif
+#endif
+  return n;
+}
+
 inline void note_allocation(std::size_t bytes) {
   ++allocations;
   allocated_bytes += bytes;
