@@ -57,7 +57,7 @@ std::string receive(int pipe) {
 
 void allow_memory(double bytes) {
   double pages = 0.0;
-  std::ifstream("/proc/self/statm") >> pages;
+  if (!(std::ifstream("/proc/self/statm") >> pages)) return;  // not Linux
   rlimit limit;
   ::getrlimit(RLIMIT_AS, &limit);
   limit.rlim_cur = static_cast<rlim_t>(pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) + bytes);
