@@ -7,6 +7,7 @@
 #include <csignal>
 #include <exception>
 #include <fstream>
+#include <new>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -40,13 +41,17 @@ std::string receive(int pipe) {
 }
 
 /// Never returns: ends without what the program does at its end, which is the other process' to do.
-[[noreturn]] void run_child(const std::function<std::string()>& work, unsigned seconds, int pipe) {
-  const rlimit limit{seconds, seconds + 1};
+[[noreturn]] void run_child(const std::string& input, unsigned seconds, const std::function<std::string()>& work,
+                            int pipe) {
+  const rlimit limit{seconds, seconds + 1}, no_core{0, 0};
   ::setrlimit(RLIMIT_CPU, &limit);
+  ::setrlimit(RLIMIT_CORE, &no_core);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) std::signal(signal, SIG_DFL);
   std::string answer;
   try {
     answer = good + work();
+  } catch (const std::bad_alloc&) {
+    answer = refused + input + ": what reads it asks for more memory than there can be in it: it is damaged";
   } catch (const std::exception& error) {
     answer = refused + std::string(error.what());
   }
@@ -71,7 +76,7 @@ std::string in_child_process(const std::string& input, unsigned seconds, const s
   const pid_t child = ::fork();
   if (child == 0) {
     ::close(pipe[0]);
-    run_child(work, seconds, pipe[1]);
+    run_child(input, seconds, work, pipe[1]);
   }
   ::close(pipe[1]);
   std::string answer = child > 0 ? receive(pipe[0]) : std::string();
