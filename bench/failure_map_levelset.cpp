@@ -35,6 +35,8 @@
 
 #include <cambium/levelset.hpp>
 
+#include "support/command.hpp"
+
 using namespace cambium;
 
 namespace bench {
